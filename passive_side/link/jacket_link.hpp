@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <boost/container/static_vector.hpp>
+#include <cstdint>
+#include <string>
+
+#include "common/clock.hpp"
+
+namespace telehug {
+
+// What one motor of the jacket is to do now. The microcontroller turns it off by itself after `duration`.
+struct MotorCommand {
+  std::uint8_t channel = 0;    // of the microcontroller, 0..15
+  std::uint8_t intensity = 0;  // 0 off .. 255 full
+  Duration duration{};         // clamped to 250 ms by the microcontroller
+};
+
+using MotorCommands = boost::container::static_vector<MotorCommand, 16>;
+
+enum class LinkState { absent, connecting, armed };
+
+struct LinkStatus {
+  LinkState state = LinkState::absent;
+  std::string device;             // path or name of what it talks to
+  std::string problem;            // one sentence; empty when armed
+  int firmware_version = 0;       // 0: unknown
+  int motor_count = 0;
+  std::uint64_t reconnects = 0;
+  std::uint64_t frames_sent = 0;
+  std::uint64_t frames_received = 0;
+  std::uint64_t malformed_frames = 0;  // received: bad COBS, CRC, type or length
+  std::uint64_t nacks = 0;
+};
+
+// The wire to the microcontroller. Only the safety stage holds one. One thread uses a link; nothing here blocks.
+class JacketLink {
+ public:
+  virtual ~JacketLink() = default;
+
+  // Connects, shakes hands, keeps alive, reads answers, reconnects. Call it often (at least every 20 ms).
+  virtual void poll(Timestamp now) = 0;
+
+  // Sends the newest state; returns false (and forgets it) when the jacket is not armed. Never queues.
+  virtual bool send(const MotorCommands& commands, Timestamp now) = 0;
+
+  // Everything off. Sent ahead of all else; repeated by poll() until it has left.
+  virtual void stop_all(Timestamp now) = 0;
+
+  [[nodiscard]] virtual const LinkStatus& status() const = 0;
+};
+
+}  // namespace telehug
