@@ -16,7 +16,7 @@ pkg_check_modules(libpng REQUIRED IMPORTED_TARGET libpng)
 
 # OpenCV part by part: the package with the complete CMake description pulls in 40 packages more that nothing here uses.
 find_path(OPENCV_INCLUDE_DIR opencv2/core.hpp PATH_SUFFIXES opencv4 REQUIRED)
-foreach(part core imgproc calib3d dnn objdetect)
+foreach(part core imgproc objdetect)
   find_library(OPENCV_${part}_LIBRARY opencv_${part} REQUIRED)
   add_library(opencv::${part} UNKNOWN IMPORTED GLOBAL)
   set_target_properties(opencv::${part} PROPERTIES IMPORTED_LOCATION ${OPENCV_${part}_LIBRARY}
