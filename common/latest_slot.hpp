@@ -32,6 +32,12 @@ class LatestSlot {
     return std::exchange(value_, std::nullopt);
   }
 
+  // Never waits: nothing is taken while the other thread is just putting.
+  std::optional<T> try_take() {
+    const std::unique_lock lock(mutex_, std::try_to_lock);
+    return lock.owns_lock() ? std::exchange(value_, std::nullopt) : std::nullopt;
+  }
+
   std::optional<T> wait_and_take(Timestamp deadline) {
     std::unique_lock lock(mutex_);
     filled_.wait_until(lock, deadline, [this] { return value_.has_value(); });

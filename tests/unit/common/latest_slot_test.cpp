@@ -21,6 +21,13 @@ TEST(LatestSlot, HandsOverTheNewestValueOnceAndSaysThatAnOlderOneWasReplaced) {
   EXPECT_FALSE(slot.take().has_value());
 }
 
+TEST(LatestSlot, TakesWithoutWaitingWhenAsked) {
+  LatestSlot<int> slot;
+  EXPECT_FALSE(slot.try_take().has_value());
+  slot.put(3);
+  EXPECT_EQ(slot.try_take(), 3);
+}
+
 TEST(LatestSlot, GivesUpWaitingAtTheDeadline) {
   LatestSlot<int> slot;
   EXPECT_FALSE(slot.wait_and_take(std::chrono::steady_clock::now() + 1ms).has_value());

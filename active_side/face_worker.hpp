@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <atomic>
+#include <condition_variable>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <thread>
+
+#include "body_map/body_map.hpp"
+#include "body_map/body_map_step.hpp"
+#include "common/latest_slot.hpp"
+#include "service/metrics.hpp"
+
+namespace telehug {
+
+struct FaceState {
+  std::string screen;   // what is looked at
+  bool open = false;    // is it being looked at now?
+  std::string problem;  // why there is no face; empty if there is one
+  BodyMap map;
+};
+
+// Looks for the remote face at its own pace, in a thread of its own, so that no touch ever waits for it.
+class FaceWorker {
+ public:
+  // Takes what it works with; `metrics` and `clock` outlive it.
+  FaceWorker(std::unique_ptr<ScreenGrabber> grabber, std::unique_ptr<FaceFinder> finder, const BodyMapStepConfig& config,
+             double rate_hz, const Clock& clock, MetricsRegistry& metrics);
+  ~FaceWorker();
+  FaceWorker(const FaceWorker&) = delete;
+  FaceWorker& operator=(const FaceWorker&) = delete;
+
+  // The screen is looked at only while somebody wants it; otherwise it is closed and the map is gone.
+  void want(bool wanted);
+
+  // Was the screen looked at since it was last wanted, so that it is known whether there is a face?
+  [[nodiscard]] bool has_looked() const noexcept { return has_looked_; }
+
+  // For the touch path: the newest map in `map` if there is a newer one. Never waits.
+  void update(BodyMap& map);
+
+  [[nodiscard]] FaceState state() const;
+
+ private:
+  void work();
+  void look();
+  void rest();
+
+  std::unique_ptr<ScreenGrabber> grabber_;
+  std::unique_ptr<FaceFinder> finder_;
+  BodyMapStep step_;
+  Duration period_;
+  const Clock& clock_;
+  LatencyHistogram& latency_;
+  LatestSlot<BodyMap> newest_;
+  std::atomic<bool> has_looked_ = false;
+
+  mutable std::mutex mutex_;
+  std::condition_variable changed_;
+  bool wanted_ = false;
+  bool ending_ = false;
+  FaceState state_;
+  std::thread thread_;
+};
+
+}  // namespace telehug
