@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "pictures/jpeg_decoder.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <csetjmp>
+#include <cstdio>  // jpeglib.h needs it first
+#include <new>
+
+#include <jpeglib.h>
+
+#include <jerror.h>
+
+namespace telehug {
+namespace {
+
+constexpr JDIMENSION max_side_px = 8192;
+
+// libjpeg calls these for the object whose `client_data` is the buffer to jump back to.
+[[noreturn]] void fail(j_common_ptr codec) {
+  std::longjmp(*static_cast<std::jmp_buf*>(codec->client_data), 1);
+}
+
+// Warnings come with level -1. Those that mean lost picture data end the decoding: half a hand must not look like a
+// picture. The others are common and harmless (stray bytes between segments, which several webcams send).
+void judge_message(j_common_ptr codec, int level) {
+  if (level >= 0) return;
+  switch (codec->err->msg_code) {
+    case JWRN_JPEG_EOF:
+    case JWRN_HIT_MARKER:
+    case JWRN_HUFF_BAD_CODE:
+    case JWRN_MUST_RESYNC:
+    case JWRN_ARITH_BAD_CODE:
+      fail(codec);
+    default:
+      ++codec->err->num_warnings;
+  }
+}
+
+void print_nothing(j_common_ptr /*codec*/) {}
+
+}  // namespace
+
+struct JpegDecoder::State {
+  jpeg_decompress_struct codec{};
+  jpeg_error_mgr errors{};
+  std::jmp_buf failed{};
+
+  State() {
+    codec.err = jpeg_std_error(&errors);
+    errors.error_exit = fail;
+    errors.emit_message = judge_message;
+    errors.output_message = print_nothing;
+    codec.client_data = &failed;
+    if (setjmp(failed) != 0) throw std::bad_alloc();  // the only way in which this call fails
+    jpeg_create_decompress(&codec);
+  }
+  ~State() { jpeg_destroy_decompress(&codec); }
+  State(const State&) = delete;
+  State& operator=(const State&) = delete;
+
+  // The parts between which a C++ object (the picture's memory) is made; no object with a destructor lives in a
+  // function that libjpeg jumps back to.
+  bool read_header(std::span<const std::uint8_t> jpeg) {
+    if (setjmp(failed) != 0) return false;
+    jpeg_abort_decompress(&codec);
+    jpeg_mem_src(&codec, jpeg.data(), jpeg.size());
+    jpeg_read_header(&codec, TRUE);
+    codec.out_color_space = JCS_EXT_BGR;
+    return true;
+  }
+  bool read_rows(cv::Mat& bgr) {
+    if (setjmp(failed) != 0) return false;
+    jpeg_start_decompress(&codec);
+    while (codec.output_scanline < codec.output_height) {
+      JSAMPROW row = bgr.ptr(static_cast<int>(codec.output_scanline));
+      jpeg_read_scanlines(&codec, &row, 1);
+    }
+    jpeg_abort_decompress(&codec);
+    return true;
+  }
+
+  Error reason() {
+    std::array<char, JMSG_LENGTH_MAX> text{};
+    errors.format_message(reinterpret_cast<j_common_ptr>(&codec), text.data());
+    return Error{fmt::format("damaged JPEG picture: {}", text.data())};
+  }
+};
+
+JpegDecoder::JpegDecoder() : state_(std::make_unique<State>()) {}
+JpegDecoder::~JpegDecoder() = default;
+JpegDecoder::JpegDecoder(JpegDecoder&&) noexcept = default;
+JpegDecoder& JpegDecoder::operator=(JpegDecoder&&) noexcept = default;
+
+Status JpegDecoder::decode(std::span<const std::uint8_t> jpeg, cv::Mat& bgr) {
+  if (jpeg.empty()) return Error{"damaged JPEG picture: it is empty"};
+  if (!state_->read_header(jpeg)) return state_->reason();
+  const jpeg_decompress_struct& codec = state_->codec;
+  if (codec.image_width > max_side_px || codec.image_height > max_side_px) {
+    return Error{fmt::format("JPEG picture of {}x{} pixels; at most {} a side are read", codec.image_width,
+                             codec.image_height, max_side_px)};
+  }
+  bgr.create(static_cast<int>(codec.image_height), static_cast<int>(codec.image_width), CV_8UC3);
+  if (!state_->read_rows(bgr)) return state_->reason();
+  return Done{};
+}
+
+}  // namespace telehug

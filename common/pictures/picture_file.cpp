@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "pictures/picture_file.hpp"
+
+#include <fmt/format.h>
+#include <png.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdint>
+#include <cstdio>
+#include <cstring>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "pictures/jpeg_decoder.hpp"
+
+namespace telehug {
+namespace {
+
+constexpr std::uintmax_t max_file_bytes = 64u << 20;
+constexpr png_uint_32 max_side_px = 8192;
+
+using File = std::unique_ptr<std::FILE, int (*)(std::FILE*)>;
+
+File open_file(const std::filesystem::path& path, const char* mode) {
+  return File{std::fopen(path.c_str(), mode), &std::fclose};
+}
+
+Error system_error(const char* doing, const std::filesystem::path& path, int code) {
+  return Error{fmt::format("can't {} {}: {}", doing, path.string(), std::strerror(code))};
+}
+
+Result<std::vector<std::uint8_t>> read_bytes(const std::filesystem::path& path) {
+  std::error_code code;
+  if (!std::filesystem::exists(path, code)) return system_error("read", path, ENOENT);
+  if (!std::filesystem::is_regular_file(path, code)) return Error{fmt::format("{} is not a file", path.string())};
+  const auto size = std::filesystem::file_size(path, code);
+  if (code) return system_error("read", path, code.value());
+  if (size > max_file_bytes) {
+    return Error{fmt::format("{} has {} bytes; pictures of at most {} are read", path.string(), size, max_file_bytes)};
+  }
+  const File file = open_file(path, "rb");
+  if (!file) return system_error("read", path, errno);
+  std::vector<std::uint8_t> bytes(size);
+  if (std::fread(bytes.data(), 1, bytes.size(), file.get()) != bytes.size()) return system_error("read", path, EIO);
+  return bytes;
+}
+
+// png_image owns memory until its reading or writing ends.
+struct PngImage {
+  png_image image{};
+  PngImage() { image.version = PNG_IMAGE_VERSION; }
+  ~PngImage() { png_image_free(&image); }
+  PngImage(const PngImage&) = delete;
+  PngImage& operator=(const PngImage&) = delete;
+};
+
+Status decode_png(std::span<const std::uint8_t> bytes, cv::Mat& bgr) {
+  PngImage png;
+  if (png_image_begin_read_from_memory(&png.image, bytes.data(), bytes.size()) == 0) {
+    return Error{fmt::format("damaged PNG picture: {}", png.image.message)};
+  }
+  if (png.image.width > max_side_px || png.image.height > max_side_px) {
+    return Error{fmt::format("PNG picture of {}x{} pixels; at most {} a side are read", png.image.width,
+                             png.image.height, max_side_px)};
+  }
+  png.image.format = PNG_FORMAT_BGR;
+  bgr.create(static_cast<int>(png.image.height), static_cast<int>(png.image.width), CV_8UC3);
+  const png_color black{0, 0, 0};
+  if (png_image_finish_read(&png.image, &black, bgr.data, static_cast<png_int_32>(bgr.step), nullptr) == 0) {
+    return Error{fmt::format("damaged PNG picture: {}", png.image.message)};
+  }
+  return Done{};
+}
+
+}  // namespace
+
+Result<cv::Mat> read_picture(const std::filesystem::path& path) {
+  const auto bytes = read_bytes(path);
+  if (!bytes) return bytes.error();
+  cv::Mat bgr;
+  Status decoded = Error{"neither a JPEG nor a PNG picture"};
+  if (bytes->size() >= 8 && png_sig_cmp(bytes->data(), 0, 8) == 0) {
+    decoded = decode_png(*bytes, bgr);
+  } else if (bytes->size() >= 2 && (*bytes)[0] == 0xFF && (*bytes)[1] == 0xD8) {
+    decoded = JpegDecoder{}.decode(*bytes, bgr);
+  }
+  if (!decoded) return Error{fmt::format("{}: {}", path.string(), decoded.error().message)};
+  return bgr;
+}
+
+Status write_png(const std::filesystem::path& path, const cv::Mat& picture) {
+  if (picture.empty() || (picture.type() != CV_8UC3 && picture.type() != CV_8UC1)) {
+    return Error{fmt::format("can't write {}: there is no 8-bit grey or BGR picture", path.string())};
+  }
+  PngImage png;
+  png.image.width = static_cast<png_uint_32>(picture.cols);
+  png.image.height = static_cast<png_uint_32>(picture.rows);
+  png.image.format = picture.channels() == 3 ? PNG_FORMAT_BGR : PNG_FORMAT_GRAY;
+  png.image.flags = PNG_IMAGE_FLAG_FAST;
+
+  const std::filesystem::path unfinished = path.string() + fmt::format(".{}.part", ::getpid());
+  File file = open_file(unfinished, "wb");
+  if (!file) return system_error("write", path, errno);
+  const bool encoded = png_image_write_to_stdio(&png.image, file.get(), 0, picture.data,
+                                                static_cast<png_int_32>(picture.step), nullptr) != 0;
+  const bool flushed = std::fclose(file.release()) == 0;
+  const int reason = errno;
+  std::error_code code;
+  if (encoded && flushed) {
+    std::filesystem::rename(unfinished, path, code);
+    if (!code) return Done{};
+  }
+  std::error_code ignored;
+  std::filesystem::remove(unfinished, ignored);
+  if (!encoded) return Error{fmt::format("can't write {}: {}", path.string(), png.image.message)};
+  return system_error("write", path, code ? code.value() : reason);
+}
+
+}  // namespace telehug
