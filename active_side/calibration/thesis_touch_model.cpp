@@ -10,12 +10,13 @@ namespace {
 
 // Two heights or columns nearer than this can't be told from one another by a finger.
 constexpr double least_distance_mm = 1.0;
+constexpr double least_distance_px = 1.0;
 
-std::string name_of(int number, const CalibrationTouch& touch) {
+std::string name_of(int number, const MeasuredTouch& touch) {
   return fmt::format("calibration touch {} at ({:.1f}, {:.1f}) mm", number, touch.screen.x_mm, touch.screen.y_mm);
 }
 
-Status check(const ScreenSize& screen, int number, const CalibrationTouch& touch) {
+Status check(const ScreenSize& screen, int number, const MeasuredTouch& touch) {
   const auto wrong = [&](const std::string& why) { return Error{name_of(number, touch) + " " + why}; };
   if (!std::isfinite(touch.screen.x_mm) || !std::isfinite(touch.screen.y_mm)) {
     return wrong("is not a point: touch it again");
@@ -26,9 +27,10 @@ Status check(const ScreenSize& screen, int number, const CalibrationTouch& touch
                              screen.width_mm, screen.height_mm));
   }
   if (!std::isfinite(touch.length_px) || touch.length_px <= 0) {
-    return wrong(fmt::format("has a finger of {} px past the screen's bottom border, which must be more than 0: "
-                             "touch it again",
-                             touch.length_px));
+    return wrong(
+        fmt::format("has a finger of {} px past the screen's bottom border, which must be more than 0: "
+                    "touch it again",
+                    touch.length_px));
   }
   if (!std::isfinite(touch.column_px)) return wrong("has no image column: touch it again");
   return Done{};
@@ -36,12 +38,12 @@ Status check(const ScreenSize& screen, int number, const CalibrationTouch& touch
 
 }  // namespace
 
-Result<ThesisTouchModel> ThesisTouchModel::solve(const ScreenSize& screen, const CalibrationTouch& first,
-                                                 const CalibrationTouch& second) {
+Result<ThesisTouchModel> ThesisTouchModel::solve(const ScreenSize& screen, const MeasuredTouch& first,
+                                                 const MeasuredTouch& second) {
   if (!std::isfinite(screen.width_mm) || !std::isfinite(screen.height_mm) || screen.width_mm <= 0 ||
       screen.height_mm <= 0) {
-    return Error{fmt::format("the screen's size of {} x {} mm is impossible: measure the visible area",
-                             screen.width_mm, screen.height_mm)};
+    return Error{fmt::format("the screen's size of {} x {} mm is impossible: measure the visible area", screen.width_mm,
+                             screen.height_mm)};
   }
   if (auto good = check(screen, 1, first); !good) return good.error();
   if (auto good = check(screen, 2, second); !good) return good.error();
@@ -63,15 +65,15 @@ Result<ThesisTouchModel> ThesisTouchModel::solve(const ScreenSize& screen, const
   // edge: l_upper / l_lower = (m_h - h_upper) / (m_h - h_lower) * (h_lower - d) / (h_upper - d), and the last factor
   // runs from 1 (d = -infinity) to infinity (d = h_upper). Nothing else can go wrong with d.
   const bool first_is_upper = h1 < h2;
-  const CalibrationTouch& upper = first_is_upper ? first : second;
-  const CalibrationTouch& lower = first_is_upper ? second : first;
-  const double proportional_px =
-      lower.length_px * (m_h - upper.screen.y_mm) / (m_h - lower.screen.y_mm);
+  const MeasuredTouch& upper = first_is_upper ? first : second;
+  const MeasuredTouch& lower = first_is_upper ? second : first;
+  const double proportional_px = lower.length_px * (m_h - upper.screen.y_mm) / (m_h - lower.screen.y_mm);
   if (upper.length_px <= proportional_px) {
-    return Error{fmt::format("{} has a finger of {:.1f} px, but with {:.1f} px at the lower point ({:.1f}, {:.1f}) mm "
-                             "it must be longer than {:.1f} px for any camera above it: touch both again",
-                             name_of(first_is_upper ? 1 : 2, upper), upper.length_px, lower.length_px,
-                             lower.screen.x_mm, lower.screen.y_mm, proportional_px)};
+    return Error{
+        fmt::format("{} has a finger of {:.1f} px, but with {:.1f} px at the lower point ({:.1f}, {:.1f}) mm "
+                    "it must be longer than {:.1f} px for any camera above it: touch both again",
+                    name_of(first_is_upper ? 1 : 2, upper), upper.length_px, lower.length_px, lower.screen.x_mm,
+                    lower.screen.y_mm, proportional_px)};
   }
 
   ThesisTouchModel model;
@@ -83,22 +85,13 @@ Result<ThesisTouchModel> ThesisTouchModel::solve(const ScreenSize& screen, const
   model.d_ = (m_h * h2 * l2 - h1 * h2 * l2 - m_h * h1 * l1 + h1 * h2 * l1) / (h2 * l1 + m_h * l2 - m_h * l1 - h1 * l2);
   const double u_r2 = model.u_s_ * (h1 - model.d_) / (h2 - model.d_);
   model.ea1_ = (second.column_px - u_r2) * (h2 - model.d_) / dx;
-  if (!std::isfinite(model.d_) || !std::isfinite(model.ea1_) || model.ea1_ == 0.0) {
-    return Error{fmt::format("{} is seen in the column {:.1f} px, straight in line with the first one's {:.1f} px, "
-                             "although it is {:.1f} mm beside it: touch both again",
-                             name_of(2, second), second.column_px, first.column_px, dx)};
+  if (!std::isfinite(model.d_) || !std::isfinite(model.ea1_) || std::abs(second.column_px - u_r2) < least_distance_px) {
+    return Error{
+        fmt::format("{} is seen in the column {:.1f} px, straight in line with the first one's {:.1f} px, "
+                    "although it is {:.1f} mm beside it: touch both again",
+                    name_of(2, second), second.column_px, first.column_px, dx)};
   }
   return model;
-}
-
-std::optional<ScreenPoint> ThesisTouchModel::screen_point(double length_px, double column_px) const noexcept {
-  const double l = length_px;
-  const double denominator = l * m_h_ - l * h1_ - l1_ * d_ + l1_ * h1_;
-  const double f_v = (l1_ * m_h_ * (h1_ - d_) + d_ * l * (m_h_ - h1_)) / denominator;
-  const double u_r = u_s_ * (h1_ - d_) / (f_v - d_);
-  const double ui = (column_px - u_r) * (f_v - d_) / ea1_;
-  if (!(denominator > 0) || !(f_v > d_) || !std::isfinite(f_v) || !std::isfinite(ui)) return std::nullopt;
-  return ScreenPoint{x1_ + ui, f_v};
 }
 
 }  // namespace telehug

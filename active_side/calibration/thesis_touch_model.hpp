@@ -9,6 +9,7 @@
 // roll, yaw or pitch; facts on its error on real rigs: 0.6 mm vertically, 3.5 mm horizontally with perfect tips.
 #pragma once
 
+#include <cmath>
 #include <optional>
 
 #include "common/result.hpp"
@@ -17,7 +18,7 @@
 namespace telehug {
 
 // A touch of a known point and how the camera saw it.
-struct CalibrationTouch {
+struct MeasuredTouch {
   ScreenPoint screen;
   double length_px = 0;  // finger past the image of the screen's bottom edge (thesis: l1, l2), > 0
   double column_px = 0;  // of the tip, signed, from the image centre, positive to the right (thesis: u_S, u_D2)
@@ -28,8 +29,8 @@ class ThesisTouchModel {
  public:
   // Says which touch is impossible and why when the two do not fit a camera that sees the whole path of the finger.
   // `first` is the thesis' reference point; `second` must lie at another height and to one side of it.
-  static Result<ThesisTouchModel> solve(const ScreenSize& screen, const CalibrationTouch& first,
-                                        const CalibrationTouch& second);
+  static Result<ThesisTouchModel> solve(const ScreenSize& screen, const MeasuredTouch& first,
+                                        const MeasuredTouch& second);
 
   // Nothing if no point of the plane below the camera looks like this. The point may lie outside the screen.
   [[nodiscard]] std::optional<ScreenPoint> screen_point(double length_px, double column_px) const noexcept;
@@ -49,5 +50,15 @@ class ThesisTouchModel {
   double d_ = 0;    // camera below the screen's top (d)
   double ea1_ = 0;  // px (EA1)
 };
+
+inline std::optional<ScreenPoint> ThesisTouchModel::screen_point(double length_px, double column_px) const noexcept {
+  const double l = length_px;
+  const double denominator = l * m_h_ - l * h1_ - l1_ * d_ + l1_ * h1_;
+  const double f_v = (l1_ * m_h_ * (h1_ - d_) + d_ * l * (m_h_ - h1_)) / denominator;
+  const double u_r = u_s_ * (h1_ - d_) / (f_v - d_);
+  const double ui = (column_px - u_r) * (f_v - d_) / ea1_;
+  if (!(denominator > 0) || !(f_v > d_) || !std::isfinite(f_v) || !std::isfinite(ui)) return std::nullopt;
+  return ScreenPoint{x1_ + ui, f_v};
+}
 
 }  // namespace telehug
