@@ -8,9 +8,10 @@
 namespace telehug {
 namespace {
 
-// Chosen on both sample rigs: low enough for a black bezel on a black screen, whose edge is a dozen grey levels.
-constexpr double canny_low = 12;
-constexpr double canny_high = 36;
+// Chosen on both sample rigs: below these, noise and the grain of a desk bend the lines; above, a black bezel's edge on a
+// black screen is lost.
+constexpr double canny_low = 25;
+constexpr double canny_high = 75;
 constexpr int hough_votes = 60;
 constexpr double hough_least_length_px = 40;
 constexpr double hough_largest_gap_px = 12;
