@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "calibration/screen_border.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <utility>
+
+#include "calibration/line_segments.hpp"
+
+namespace telehug {
+namespace {
+
+constexpr double level_limit_deg = 6;
+constexpr double same_level_px = 4;
+// A border shorter than this part of the picture's width is none: the screen is wider than what the camera sees.
+constexpr double least_part_of_width = 0.4;
+// Edges of the triangle: clearly inclined, not upright (a monitor's foot), and of a visible length.
+constexpr double triangle_least_deg = 9;
+constexpr double triangle_largest_deg = 80;
+constexpr double triangle_least_length_px = 50;
+// How far from a line the intersection of the triangle's edges may lie.
+constexpr double vertex_limit_px = 12;
+
+double distance_px(const BorderLine& line, const ImagePoint& point) {
+  return std::abs(point.v_px - line.v_at(point.u_px));
+}
+
+BorderLine line_through(const LineSegment& segment) {
+  const double slope = (segment.right.v_px - segment.left.v_px) / std::max(1.0, segment.right.u_px - segment.left.u_px);
+  return {segment.left.v_px - slope * segment.left.u_px, slope};
+}
+
+// Least squares through the segments as if each were a row of points, one per column.
+BorderLine fit(const std::vector<LineSegment>& segments) {
+  double n = 0, su = 0, sv = 0, suu = 0, suv = 0;
+  for (const LineSegment& segment : segments) {
+    const BorderLine line = line_through(segment);
+    for (double u = segment.left.u_px; u <= segment.right.u_px; u += 1.0) {
+      const double v = line.v_at(u);
+      n += 1, su += u, sv += v, suu += u * u, suv += u * v;
+    }
+  }
+  const double determinant = n * suu - su * su;
+  const double slope = determinant > 0 ? (n * suv - su * sv) / determinant : 0.0;
+  return {(sv - slope * su) / n, slope};
+}
+
+double covered_columns(const std::vector<LineSegment>& segments) {
+  std::vector<std::pair<double, double>> spans;
+  spans.reserve(segments.size());
+  for (const LineSegment& segment : segments)
+    spans.emplace_back(segment.left.u_px, segment.right.u_px);
+  std::sort(spans.begin(), spans.end());
+  double covered = 0;
+  double end = -1;
+  for (const auto& [left, right] : spans) {
+    covered += std::max(0.0, right - std::max(left, end));
+    end = std::max(end, right);
+  }
+  return covered;
+}
+
+std::vector<LevelLine> merge_by_level(std::vector<LineSegment> segments) {
+  std::erase_if(segments, [](const LineSegment& s) { return std::abs(inclination_deg(s)) > level_limit_deg; });
+  std::sort(segments.begin(), segments.end(),
+            [](const LineSegment& a, const LineSegment& b) { return length_px(a) > length_px(b); });
+  std::vector<LevelLine> lines;
+  while (!segments.empty()) {
+    // The longest piece left takes all that lie at its level; the line grows with them.
+    std::vector<LineSegment> members{segments.front()};
+    segments.erase(segments.begin());
+    BorderLine line = fit(members);
+    for (bool grown = true; grown;) {
+      const auto at_level = [&line](const LineSegment& s) {
+        return distance_px(line, s.left) <= same_level_px && distance_px(line, s.right) <= same_level_px;
+      };
+      const auto others =
+          std::stable_partition(segments.begin(), segments.end(), [&](const LineSegment& s) { return !at_level(s); });
+      grown = others != segments.end();
+      members.insert(members.end(), others, segments.end());
+      segments.erase(others, segments.end());
+      if (grown) line = fit(members);
+    }
+    lines.push_back({line, covered_columns(members)});
+  }
+  std::sort(lines.begin(), lines.end(),
+            [](const LevelLine& a, const LevelLine& b) { return a.length_px > b.length_px; });
+  return lines;
+}
+
+std::optional<ImagePoint> intersection(const LineSegment& a, const LineSegment& b) {
+  const double au = a.right.u_px - a.left.u_px;
+  const double av = a.right.v_px - a.left.v_px;
+  const double bu = b.right.u_px - b.left.u_px;
+  const double bv = b.right.v_px - b.left.v_px;
+  const double cross = au * bv - av * bu;
+  if (std::abs(cross) < 1e-9) return std::nullopt;
+  const double t = ((b.left.u_px - a.left.u_px) * bv - (b.left.v_px - a.left.v_px) * bu) / cross;
+  return ImagePoint{a.left.u_px + t * au, a.left.v_px + t * av};
+}
+
+const LevelLine* nearest_line(const std::vector<LevelLine>& lines, const ImagePoint& point, double least_length_px) {
+  const LevelLine* nearest = nullptr;
+  for (const LevelLine& line : lines) {
+    if (line.length_px < least_length_px || distance_px(line.line, point) > vertex_limit_px) continue;
+    if (nearest == nullptr || distance_px(line.line, point) < distance_px(nearest->line, point)) nearest = &line;
+  }
+  return nearest;
+}
+
+// The line on which the two edges of the triangle meet: one edge falls to the left of the vertex, one to its right.
+const LevelLine* line_at_triangle(const std::vector<LineSegment>& segments, const std::vector<LevelLine>& lines,
+                                  double least_length_px) {
+  std::vector<LineSegment> edges;
+  for (const LineSegment& segment : segments) {
+    const double deg = std::abs(inclination_deg(segment));
+    if (deg >= triangle_least_deg && deg <= triangle_largest_deg && length_px(segment) >= triangle_least_length_px) {
+      edges.push_back(segment);
+    }
+  }
+  const LevelLine* best = nullptr;
+  double best_length_px = 0;
+  for (const LineSegment& left : edges) {
+    if (inclination_deg(left) > 0) continue;  // rises to the right, to the vertex
+    for (const LineSegment& right : edges) {
+      if (inclination_deg(right) < 0) continue;
+      const auto vertex = intersection(left, right);
+      if (!vertex || vertex->u_px + vertex_limit_px < left.right.u_px ||
+          vertex->u_px - vertex_limit_px > right.left.u_px) {
+        continue;
+      }
+      const LevelLine* line = nearest_line(lines, *vertex, least_length_px);
+      const double length = length_px(left) + length_px(right);
+      if (line != nullptr && length > best_length_px) {
+        best = line;
+        best_length_px = length;
+      }
+    }
+  }
+  return best;
+}
+
+}  // namespace
+
+std::vector<LevelLine> find_level_lines(const cv::Mat& bgr) {
+  return merge_by_level(find_line_segments(bgr));
+}
+
+Result<ScreenBorder> find_screen_border(const cv::Mat& bgr, BorderChoice choice) {
+  if (bgr.empty() || bgr.type() != CV_8UC3) return Error{"there is no colour picture in which to find the border"};
+  const auto segments = find_line_segments(bgr);
+  const auto lines = merge_by_level(segments);
+  const double least_length_px = least_part_of_width * bgr.cols;
+  if (lines.empty() || lines.front().length_px < least_length_px) {
+    return Error{
+        fmt::format("no border of the screen found: the longest level line covers {:.0f} of {} columns; let "
+                    "the camera look straight down along the screen and light the desk",
+                    lines.empty() ? 0.0 : lines.front().length_px, bgr.cols)};
+  }
+  const LevelLine* line = &lines.front();
+  if (choice == BorderChoice::triangle) {
+    line = line_at_triangle(segments, lines, least_length_px);
+    if (line == nullptr) {
+      return Error{
+          fmt::format("none of {} level lines carries the triangle's vertex: show the triangle with its point "
+                      "on the screen's bottom edge, in the camera's view",
+                      lines.size())};
+    }
+  }
+  return ScreenBorder{line->line, line->length_px};
+}
+
+}  // namespace telehug

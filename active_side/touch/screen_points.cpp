@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "touch/screen_points.hpp"
+
+namespace telehug {
+namespace {
+
+bool near_screen(const ScreenPoint& point, const ScreenSize& screen) {
+  return point.x_mm >= -outside_limit_mm && point.x_mm <= screen.width_mm + outside_limit_mm &&
+         point.y_mm >= -outside_limit_mm && point.y_mm <= screen.height_mm + outside_limit_mm;
+}
+
+}  // namespace
+
+TouchedPoints screen_points(const Fingers& fingers, const ThesisTouchModel& model, const ScreenSize& screen,
+                            ImageSize image) {
+  TouchedPoints touched;
+  for (const Finger& finger : fingers) {
+    const auto point = model.screen_point(finger.length_px, column_from_centre_px(finger.tip.u_px, image));
+    if (point && near_screen(*point, screen)) {
+      touched.points.push_back(*point);
+    } else {
+      ++touched.dropped;
+    }
+  }
+  return touched;
+}
+
+}  // namespace telehug
