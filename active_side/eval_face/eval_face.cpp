@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "eval_face/eval_face.hpp"
+
+#include <fmt/format.h>
+
+#include <fstream>
+#include <string>
+
+#include "body_map/choose_remote_face.hpp"
+#include "body_map/picture_files.hpp"
+#include "pictures/picture_file.hpp"
+
+namespace telehug {
+namespace fs = std::filesystem;
+namespace {
+
+std::string csv_row(const std::string& image, const std::optional<FoundFace>& face) {
+  if (!face) {
+    return fmt::format("{},,,,\n", image);
+  }
+  const cv::Rect2d& box = face->box;
+  return fmt::format("{},{:.1f},{:.1f},{:.1f},{:.1f}\n", image, box.x, box.y, box.width, box.height);
+}
+
+}  // namespace
+
+Result<FaceEvaluation> eval_face(const fs::path& folder, const fs::path& out, FaceFinder& finder) {
+  const auto files = list_pictures(folder);
+  if (!files) {
+    return files.error();
+  }
+  const auto labels = read_face_labels(folder);
+  if (!labels) {
+    return labels.error();
+  }
+
+  FaceEvaluation evaluation;
+  if (*labels) {
+    evaluation.scores.emplace();
+  }
+  std::string rows = "image,face_x,face_y,face_w,face_h\n";
+  for (const fs::path& file : *files) {
+    const auto picture = read_picture(file);
+    if (!picture) {
+      return picture.error();
+    }
+    const auto found = finder.find(*picture);
+    if (!found) {
+      return Error{fmt::format("{}: {}", file.string(), found.error().message)};
+    }
+    const auto picked = choose_remote_face(*found, {.width_px = picture->cols, .height_px = picture->rows});
+    const std::string image = file.filename().string();
+    rows += csv_row(image, picked);
+    ++evaluation.pictures;
+    evaluation.picked += picked ? 1 : 0;
+    if (evaluation.scores) {
+      if (const auto label = (*labels)->find(image); label != (*labels)->end()) {
+        evaluation.scores->add(label->second, *found, picked);
+      }
+    }
+  }
+
+  std::ofstream csv(out, std::ios::trunc);
+  csv << rows << std::flush;
+  if (!csv) {
+    return Error{fmt::format("{} can't be written; check that its folder exists and is writable.", out.string())};
+  }
+  return evaluation;
+}
+
+}  // namespace telehug
