@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "dds/participant.hpp"
+
+#include <fastrtps/xmlparser/XMLProfileManager.h>
+#include <fmt/format.h>
+#include <fastdds/dds/domain/DomainParticipantFactory.hpp>
+
+#include <stdexcept>
+
+#include "dds/participant_impl.hpp"
+#include "dds/qos.hpp"
+
+namespace telehug {
+
+namespace dds = eprosima::fastdds::dds;
+
+namespace {
+
+// A writer must never run a reader's callback, not even in one process: every message goes through the transport.
+void deliver_through_the_transport_only() {
+  eprosima::fastrtps::LibrarySettingsAttributes library;
+  library.intraprocess_delivery = eprosima::fastrtps::INTRAPROCESS_OFF;
+  eprosima::fastrtps::xmlparser::XMLProfileManager::library_settings(library);
+}
+
+template <typename Qos>
+Qos in_partition(Qos qos, const std::string& partition) {
+  qos.partition().push_back(partition.c_str());
+  return qos;
+}
+
+}  // namespace
+
+DdsParticipant::Impl::Impl(const DdsSettings& settings) : side(settings.side) {
+  if (settings.domain_id > max_domain_id) {
+    throw std::invalid_argument(
+        fmt::format("DDS domain {} is out of range: choose 0 to {}", settings.domain_id, max_domain_id));
+  }
+  if (settings.partition.empty() || settings.partition.find_first_of("*?[]") != std::string::npos) {
+    throw std::invalid_argument(
+        fmt::format("the DDS partition \"{}\" is empty or holds a wildcard: choose a plain name", settings.partition));
+  }
+  const dds::DomainParticipantQos qos = participant_qos(settings);
+  deliver_through_the_transport_only();
+  participant = dds::DomainParticipantFactory::get_instance()->create_participant(settings.domain_id, qos, nullptr,
+                                                                                  dds::StatusMask::none());
+  if (participant == nullptr) {
+    throw std::runtime_error(
+        fmt::format("DDS could not join domain {}: are its UDP ports (from {}) free and the network up?",
+                    settings.domain_id, 7400 + 250 * settings.domain_id));
+  }
+  publisher = participant->create_publisher(in_partition(dds::PUBLISHER_QOS_DEFAULT, settings.partition));
+  subscriber = participant->create_subscriber(in_partition(dds::SUBSCRIBER_QOS_DEFAULT, settings.partition));
+  if (publisher == nullptr || subscriber == nullptr) {
+    participant->delete_contained_entities();
+    dds::DomainParticipantFactory::get_instance()->delete_participant(participant);
+    throw std::runtime_error("DDS could not make a publisher and a subscriber in its own participant");
+  }
+}
+
+DdsParticipant::Impl::~Impl() {
+  participant->delete_contained_entities();
+  dds::DomainParticipantFactory::get_instance()->delete_participant(participant);
+}
+
+dds::Topic* DdsParticipant::Impl::find_or_create(const std::string& name, dds::TypeSupport type) {
+  if (auto* known = dynamic_cast<dds::Topic*>(participant->lookup_topicdescription(name))) return known;
+  const std::string type_name = type.get_type_name();
+  if (participant->find_type(type_name).empty()) type.register_type(participant);
+  dds::Topic* created = participant->create_topic(name, type_name, dds::TOPIC_QOS_DEFAULT);
+  if (created == nullptr) throw std::runtime_error(fmt::format("DDS refused the topic {}", name));
+  return created;
+}
+
+DdsParticipant::DdsParticipant(const DdsSettings& settings) : impl_(std::make_shared<Impl>(settings)) {}
+DdsParticipant::~DdsParticipant() = default;
+
+}  // namespace telehug

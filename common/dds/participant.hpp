@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+
+#include "dds/settings.hpp"
+
+namespace telehug {
+
+// One program's membership in the DDS domain. UDPv4 only; discovery by multicast and, on loopback, without it.
+// Readers and writers keep what they need of it alive, so the order of destruction is free. Create them from one
+// thread.
+class DdsParticipant {
+ public:
+  // Throws std::invalid_argument (settings that can't work) or std::runtime_error (no participant); what() is a
+  // sentence.
+  explicit DdsParticipant(const DdsSettings& settings);
+  ~DdsParticipant();
+  DdsParticipant(const DdsParticipant&) = delete;
+  DdsParticipant& operator=(const DdsParticipant&) = delete;
+
+  struct Impl;
+  [[nodiscard]] const std::shared_ptr<Impl>& impl() const noexcept { return impl_; }
+
+ private:
+  std::shared_ptr<Impl> impl_;
+};
+
+}  // namespace telehug

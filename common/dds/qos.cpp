@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "dds/qos.hpp"
+
+#include <arpa/inet.h>
+#include <fastdds/rtps/transport/UDPv4TransportDescriptor.h>
+#include <fastrtps/utils/IPLocator.h>
+#include <fmt/format.h>
+
+#include <stdexcept>
+
+namespace telehug {
+
+namespace dds = eprosima::fastdds::dds;
+namespace rtps = eprosima::fastrtps::rtps;
+using eprosima::fastrtps::Duration_t;
+
+namespace {
+
+constexpr const char* loopback_address = "127.0.0.1";
+// Programs of one host that find each other on loopback without multicast (discovery tries that many ports).
+constexpr std::uint32_t max_loopback_participants = 10;
+constexpr int felt_history = 64;
+// A restarted sender leaves its session behind as an instance until the lease ends; the default of 10 would refuse the
+// eleventh restart.
+constexpr int max_sessions = 1000;
+
+rtps::Locator_t udp_locator(const std::string& address) {
+  in_addr parsed{};
+  if (inet_pton(AF_INET, address.c_str(), &parsed) != 1) {
+    throw std::invalid_argument(fmt::format("the peer \"{}\" is not an IPv4 address such as 192.0.2.7", address));
+  }
+  rtps::Locator_t locator;
+  locator.kind = LOCATOR_KIND_UDPv4;
+  locator.port = 0;  // the ports that the domain id gives
+  rtps::IPLocator::setIPv4(locator, address);
+  return locator;
+}
+
+// Newest wins and nothing waits: a lost sample is made good by the next one.
+template <typename Qos>
+void best_effort_newest(Qos& qos) {
+  qos.reliability().kind = dds::BEST_EFFORT_RELIABILITY_QOS;
+  qos.durability().kind = dds::VOLATILE_DURABILITY_QOS;
+  qos.history().kind = dds::KEEP_LAST_HISTORY_QOS;
+  qos.history().depth = 1;
+}
+
+template <typename Qos>
+void reliable(Qos& qos, int depth) {
+  qos.reliability().kind = dds::RELIABLE_RELIABILITY_QOS;
+  qos.durability().kind = dds::VOLATILE_DURABILITY_QOS;
+  qos.history().kind = dds::KEEP_LAST_HISTORY_QOS;
+  qos.history().depth = depth;
+}
+
+// A side that joins late learns the present state.
+template <typename Qos>
+void reliable_state(Qos& qos) {
+  reliable(qos, 1);
+  qos.durability().kind = dds::TRANSIENT_LOCAL_DURABILITY_QOS;
+}
+
+template <typename T, typename Qos>
+void choose_delivery(Qos& qos);
+template <>
+void choose_delivery<TouchEvent>(dds::DataWriterQos& qos) {
+  best_effort_newest(qos);
+}
+template <>
+void choose_delivery<TouchEvent>(dds::DataReaderQos& qos) {
+  best_effort_newest(qos);
+  qos.resource_limits().max_instances = max_sessions;
+}
+template <>
+void choose_delivery<Heartbeat>(dds::DataWriterQos& qos) {
+  best_effort_newest(qos);
+}
+template <>
+void choose_delivery<Heartbeat>(dds::DataReaderQos& qos) {
+  best_effort_newest(qos);
+}
+template <>
+void choose_delivery<Felt>(dds::DataWriterQos& qos) {
+  reliable(qos, felt_history);
+}
+template <>
+void choose_delivery<Felt>(dds::DataReaderQos& qos) {
+  reliable(qos, felt_history);
+}
+template <>
+void choose_delivery<SideStatus>(dds::DataWriterQos& qos) {
+  reliable_state(qos);
+}
+template <>
+void choose_delivery<SideStatus>(dds::DataReaderQos& qos) {
+  reliable_state(qos);
+}
+template <>
+void choose_delivery<StopAll>(dds::DataWriterQos& qos) {
+  reliable_state(qos);
+}
+template <>
+void choose_delivery<StopAll>(dds::DataReaderQos& qos) {
+  reliable_state(qos);
+}
+
+}  // namespace
+
+dds::DomainParticipantQos participant_qos(const DdsSettings& settings) {
+  if (settings.loopback_only && !settings.peers.empty()) {
+    throw std::invalid_argument("peers are listed, but only loopback is allowed: remove one of the two settings");
+  }
+  dds::DomainParticipantQos qos;
+  qos.name(settings.side == Side::active ? "telehug-active" : "telehug-passive");
+
+  // UDPv4 only. Shared memory would leave world-readable files behind after a crash.
+  qos.transport().use_builtin_transports = false;
+  const auto udp = std::make_shared<eprosima::fastdds::rtps::UDPv4TransportDescriptor>();
+  auto& builtin = qos.wire_protocol().builtin;
+  if (settings.loopback_only) {
+    udp->interfaceWhiteList.emplace_back(loopback_address);
+    udp->maxInitialPeersRange = max_loopback_participants;
+    builtin.initialPeersList.push_back(udp_locator(loopback_address));
+  }
+  for (const std::string& peer : settings.peers)
+    builtin.initialPeersList.push_back(udp_locator(peer));
+  qos.transport().user_transports.push_back(udp);
+
+  // A long lease: a side that drops the other after a short one-way loss may never find it again once DDS security is
+  // on. Who lives is for the heartbeats to say. Announcing each second lets a late joiner match within that time.
+  builtin.discovery_config.leaseDuration = Duration_t(600, 0);
+  builtin.discovery_config.leaseDuration_announcementperiod = Duration_t(1, 0);
+  return qos;
+}
+
+template <typename T>
+dds::DataWriterQos writer_qos() {
+  dds::DataWriterQos qos;
+  choose_delivery<T>(qos);
+  qos.publish_mode().kind =
+      dds::SYNCHRONOUS_PUBLISH_MODE;  // sent by the caller's thread; the other mode costs 7 ms p99
+  qos.data_sharing().off();
+  qos.endpoint().history_memory_policy = rtps::PREALLOCATED_WITH_REALLOC_MEMORY_MODE;
+  // How soon a reliable sample that was lost is sent again: the default of 3 s leaves gaps of seconds.
+  qos.reliable_writer_qos().times.heartbeatPeriod = Duration_t(0, 100'000'000);
+  qos.reliable_writer_qos().times.nackResponseDelay = Duration_t(0, 0);
+  return qos;
+}
+
+template <typename T>
+dds::DataReaderQos reader_qos() {
+  dds::DataReaderQos qos;
+  choose_delivery<T>(qos);
+  qos.data_sharing().off();
+  qos.endpoint().history_memory_policy = rtps::PREALLOCATED_WITH_REALLOC_MEMORY_MODE;
+  qos.reliable_reader_qos().times.heartbeatResponseDelay = Duration_t(0, 0);
+  return qos;
+}
+
+template dds::DataWriterQos writer_qos<TouchEvent>();
+template dds::DataWriterQos writer_qos<Felt>();
+template dds::DataWriterQos writer_qos<Heartbeat>();
+template dds::DataWriterQos writer_qos<SideStatus>();
+template dds::DataWriterQos writer_qos<StopAll>();
+template dds::DataReaderQos reader_qos<TouchEvent>();
+template dds::DataReaderQos reader_qos<Felt>();
+template dds::DataReaderQos reader_qos<Heartbeat>();
+template dds::DataReaderQos reader_qos<SideStatus>();
+template dds::DataReaderQos reader_qos<StopAll>();
+
+}  // namespace telehug

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "common/messages.hpp"
+
+namespace telehug {
+
+// Above this the ports of a domain (7400 + 250 * domain) lie where the kernel hands out ports of its own.
+inline constexpr std::uint32_t max_domain_id = 100;
+
+struct DdsSettings {
+  Side side = Side::active;           // which side this program is: it writes this side's topics and reads the other's
+  std::uint32_t domain_id = 0;        // 0..max_domain_id; the same on both sides
+  std::string partition = "telehug";  // only equal partitions meet; not empty, no wildcards
+  bool loopback_only = true;          // binds to 127.0.0.1 and sends to nothing else
+  std::vector<std::string> peers;     // IPv4 addresses for networks without multicast; only if not loopback_only
+};
+
+}  // namespace telehug

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "subscribe/staleness.hpp"
+
+#include <algorithm>
+
+namespace telehug {
+
+Duration Staleness::observe(const SessionId& session, std::int64_t sent_time_ns, Timestamp now) {
+  const std::int64_t now_ns = to_ns(now);
+  if (session != session_) {
+    session_ = session;
+    smallest_.fill(std::nullopt);
+    newest_bucket_ = now_ns / bucket_ns;
+  }
+  move_window(now_ns);
+  // Both are not negative, so the difference can't overflow.
+  const std::int64_t difference_ns = now_ns - sent_time_ns;
+  auto& bucket = smallest_[static_cast<std::size_t>(newest_bucket_) % buckets];
+  bucket = std::min(bucket.value_or(difference_ns), difference_ns);
+  last_arrival_ns_ = now_ns;
+  return std::chrono::nanoseconds(difference_ns - *smallest());
+}
+
+bool Staleness::is_stale(const TouchEvent& event, Timestamp now) {
+  touch_age_ = observe(event.session, event.sent_time_ns, now);
+  const bool stale = touch_age_ > stale_age_;
+  if (stale) ++stale_count_;
+  return stale;
+}
+
+void Staleness::move_window(std::int64_t now_ns) {
+  const std::int64_t bucket = now_ns / bucket_ns;
+  const auto before = smallest();
+  const std::int64_t steps = std::min(bucket - newest_bucket_, static_cast<std::int64_t>(buckets));
+  for (std::int64_t i = 0; i < steps; ++i)
+    smallest_[static_cast<std::size_t>(bucket - i) % buckets].reset();
+  newest_bucket_ = std::max(newest_bucket_, bucket);
+  if (before && !smallest()) {
+    // Nothing came for a whole window: what was known still holds, but for the drift of the clocks. Forgetting it would
+    // make the first message after a long stall, and all that were stuck with it, look fresh.
+    const std::int64_t silence_ns = now_ns - last_arrival_ns_;
+    smallest_[static_cast<std::size_t>(newest_bucket_) % buckets] =
+        *before + silence_ns / 1'000'000 * max_drift_per_million;
+  }
+}
+
+std::optional<std::int64_t> Staleness::smallest() const noexcept {
+  std::optional<std::int64_t> least;
+  for (const auto& bucket : smallest_) {
+    if (bucket) least = std::min(least.value_or(*bucket), *bucket);
+  }
+  return least;
+}
+
+}  // namespace telehug
