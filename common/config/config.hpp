@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// What each side can be told by its configuration. The values written here are the defaults; keys.cpp says for every
+// one its name in the file, its range and its help.
+#pragma once
+
+#include <string>
+
+#include "common/units.hpp"
+
+namespace telehug {
+
+struct PeerConfig {
+  int domain = 77;        // DDS domain
+  std::string partition;  // DDS partition: pairs on one network that must not hear each other take different ones
+  bool loopback_only = true;
+};
+
+struct ControlConfig {
+  std::string socket;  // empty: default_control_socket()
+  std::string group;   // empty: the daemon's own
+};
+
+struct LogConfig {
+  std::string level = "info";
+};
+
+struct CameraConfig {
+  std::string source = "webcam";  // read it with parse_camera_source()
+  std::string device;             // empty: the only camera there is
+  int width_px = 1280;
+  int height_px = 720;
+  int fps = 30;
+  std::string format = "auto";  // auto, mjpeg, yuyv
+};
+
+struct RigConfig {
+  std::string calibration_file;  // empty: see rig_file()
+  ScreenSize screen;             // 0: as the calibration file says
+};
+
+struct TouchConfig {
+  std::string detector = "default";  // default, thesis
+  std::string model = "default";     // default, thesis
+  int up_after_ms = 70;
+};
+
+struct BodyMapConfig {
+  std::string picture;        // file or folder
+  std::string face = "haar";  // haar
+  double rate_hz = 8;
+  int hold_ms = 1500;
+  int max_age_ms = 3000;
+};
+
+struct ActiveConfig {
+  CameraConfig camera;
+  RigConfig rig;
+  TouchConfig touch;
+  BodyMapConfig body_map;
+  PeerConfig peer;
+  int heartbeat_timeout_ms = 250;  // [peer]
+  ControlConfig control;
+  LogConfig log;
+};
+
+struct JacketConfig {
+  std::string profile;             // empty: see jacket_profile_file()
+  std::string link = "simulated";  // read it with parse_jacket_link()
+  int baud = 57600;
+};
+
+struct SafetyConfig {
+  double max_strength = 1.0;  // 0..1
+  int drive_ms = 200;
+  int heartbeat_timeout_ms = 250;
+};
+
+struct PassiveConfig {
+  JacketConfig jacket;
+  SafetyConfig safety;
+  PeerConfig peer;
+  ControlConfig control;
+  LogConfig log;
+};
+
+}  // namespace telehug

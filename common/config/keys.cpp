@@ -1,0 +1,192 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The tables of all keys. After a change here: cmake --build --preset release --target config_files
+#include <fmt/core.h>
+
+#include <algorithm>
+
+#include "config/key.hpp"
+#include "config/locator.hpp"
+
+namespace telehug {
+namespace {
+
+constexpr Range any_length_px{0, 16384};
+constexpr Range any_length_mm{0, 5000};
+// A heartbeat comes every 100 ms: less than 150 would lose the peer whenever one is late.
+constexpr Range heartbeat_timeout{150, 1000};
+
+template <typename Parser>
+TextCheck parsed_by(Parser parse) {
+  return [parse](std::string_view text) -> std::optional<std::string> {
+    const auto parsed = parse(text);
+    return parsed ? std::nullopt : std::optional(parsed.error().message);
+  };
+}
+
+// In DDS these characters make a partition's name a pattern that matches other pairs' partitions.
+std::optional<std::string> not_a_pattern(std::string_view text) {
+  if (text.find_first_of("*?[]") == std::string_view::npos && text.size() <= 64) return std::nullopt;
+  return "a partition has at most 64 characters and none of * ? [ ]";
+}
+
+// sockaddr_un has room for 108 bytes.
+std::optional<std::string> fits_a_socket(std::string_view text) {
+  if (text.size() < 108 && (text.empty() || text.starts_with('/'))) return std::nullopt;
+  return "the path of a socket is absolute and shorter than 108 bytes";
+}
+
+using Rows = std::vector<Key>;
+
+void append(Rows& rows, const Rows& more) {
+  rows.insert(rows.end(), more.begin(), more.end());
+}
+
+Rows peer_rows(PeerConfig& c) {
+  return {
+      {"peer", "domain", &c.domain, "", Range{0, 200}, "DDS domain; both sides need the same."},
+      {"peer", "partition", &c.partition, "", TextCheck(not_a_pattern),
+       "Name of this pair; both sides need the same. Pairs on one network take different names."},
+      {"peer",
+       "loopback_only",
+       &c.loopback_only,
+       "",
+       {},
+       "true: talk only to a peer on this PC. false: use the network."},
+  };
+}
+
+Rows common_rows(ControlConfig& control, LogConfig& log) {
+  return {
+      {"control", "socket", &control.socket, "", TextCheck(fits_a_socket),
+       "Local socket that `telehug status` talks to; empty: in the runtime folder of the service or user."},
+      {"control", "group", &control.group, "", {}, "Group that may use the socket; empty: the daemon's own."},
+      {"log", "level", &log.level, "", OneOf{{"trace", "debug", "info", "warn", "error"}},
+       "The least important messages that are logged."},
+  };
+}
+
+std::string place_of(const std::vector<Key>& keys, std::initializer_list<std::string_view> paths) {
+  for (const std::string_view path : paths) {
+    const auto key = std::find_if(keys.begin(), keys.end(), [&](const Key& k) { return k.path() == path; });
+    if (key != keys.end() && !key->origin.empty()) return key->origin;
+  }
+  return "defaults";
+}
+
+}  // namespace
+
+std::vector<Key> keys_of(ActiveConfig& c) {
+  Rows rows{
+      {"camera", "source", &c.camera.source, "", parsed_by(parse_camera_source),
+       "\"webcam\", \"replay:DIR\" (a recording) or \"virtual\" (a simulated rig)."},
+      {"camera",
+       "device",
+       &c.camera.device,
+       "",
+       {},
+       "The webcam, best by its /dev/v4l/by-id/ path; empty: the only camera there is."},
+      {"camera", "width_px", &c.camera.width_px, "px", Range{160, 7680}, "Width of the camera's frames."},
+      {"camera", "height_px", &c.camera.height_px, "px", Range{120, 4320}, "Height of the camera's frames."},
+      {"camera", "fps", &c.camera.fps, "frames/s", Range{1, 240}, "Frame rate asked of the camera."},
+      {"camera", "format", &c.camera.format, "", OneOf{{"auto", "mjpeg", "yuyv"}},
+       "How frames come over USB; auto takes what keeps up the frame rate."},
+
+      {"rig",
+       "calibration_file",
+       &c.rig.calibration_file,
+       "",
+       {},
+       "Calibration of this monitor and camera; empty: rig.toml in the state folder of the service or user."},
+      {"rig", "screen_width_mm", &c.rig.screen.width_mm, "mm", any_length_mm,
+       "Visible width of the monitor; 0: as calibrated."},
+      {"rig", "screen_height_mm", &c.rig.screen.height_mm, "mm", any_length_mm,
+       "Visible height of the monitor; 0: as calibrated."},
+      {"rig", "screen_width_px", &c.rig.screen.width_px, "px", any_length_px,
+       "Width of the desktop; 0: as calibrated."},
+      {"rig", "screen_height_px", &c.rig.screen.height_px, "px", any_length_px,
+       "Height of the desktop; 0: as calibrated."},
+
+      {"touch", "detector", &c.touch.detector, "", OneOf{{"default", "thesis"}}, "How the finger is found."},
+      {"touch", "model", &c.touch.model, "", OneOf{{"default", "thesis"}},
+       "How a finger in the image becomes a point on the screen."},
+      {"touch", "up_after_ms", &c.touch.up_after_ms, "ms", Range{0, 1000},
+       "How long a finger must be unseen before its touch ends."},
+
+      {"body_map",
+       "picture",
+       &c.body_map.picture,
+       "",
+       {},
+       "Picture of the remote person: a file, or a folder of them."},
+      {"body_map", "face", &c.body_map.face, "", OneOf{{"haar"}}, "Face finder."},
+      {"body_map", "rate_hz", &c.body_map.rate_hz, "Hz", Range{0.5, 60}, "How often the face is looked for."},
+      {"body_map", "hold_ms", &c.body_map.hold_ms, "ms", Range{0, 10000},
+       "How long the last face found stays in use when none is found."},
+      {"body_map", "max_age_ms", &c.body_map.max_age_ms, "ms", Range{100, 30000},
+       "A body map older than this is refused: touches are counted, not sent."},
+  };
+  append(rows, peer_rows(c.peer));
+  append(rows, {{"peer", "heartbeat_timeout_ms", &c.heartbeat_timeout_ms, "ms", heartbeat_timeout,
+                 "Without a heartbeat for so long the peer counts as absent."}});
+  append(rows, common_rows(c.control, c.log));
+  return rows;
+}
+
+std::vector<Key> keys_of(PassiveConfig& c) {
+  Rows rows{
+      {"jacket",
+       "profile",
+       &c.jacket.profile,
+       "",
+       {},
+       "File that describes the jacket; empty: the installed one of the 16-motor jacket."},
+      {"jacket", "link", &c.jacket.link, "", parsed_by(parse_jacket_link),
+       "\"serial:PATH\", \"simulated\" (no jacket needed) or \"record:FILE\" (what would be sent)."},
+      {"jacket", "baud", &c.jacket.baud, "baud", Range{9600, 1000000}, "Speed of the serial line."},
+
+      {"safety", "max_strength", &c.safety.max_strength, "", Range{0, 1}, "No motor is ever driven stronger."},
+      {"safety", "drive_ms", &c.safety.drive_ms, "ms", Range{50, 250},
+       "How long one command drives a motor; touches that last renew it."},
+      {"safety", "heartbeat_timeout_ms", &c.safety.heartbeat_timeout_ms, "ms", heartbeat_timeout,
+       "Without a heartbeat for so long everything is turned off."},
+  };
+  append(rows, peer_rows(c.peer));
+  append(rows, common_rows(c.control, c.log));
+  return rows;
+}
+
+std::vector<Fault> impossible_combinations(const ActiveConfig& c, const std::vector<Key>& keys) {
+  std::vector<Fault> faults;
+  if ((c.rig.screen.width_mm > 0) != (c.rig.screen.height_mm > 0)) {
+    faults.push_back({place_of(keys, {"rig.screen_width_mm", "rig.screen_height_mm"}),
+                      "rig.screen_width_mm and rig.screen_height_mm must both be given, or both be 0"});
+  }
+  if ((c.rig.screen.width_px > 0) != (c.rig.screen.height_px > 0)) {
+    faults.push_back({place_of(keys, {"rig.screen_width_px", "rig.screen_height_px"}),
+                      "rig.screen_width_px and rig.screen_height_px must both be given, or both be 0"});
+  }
+  if (c.body_map.hold_ms > c.body_map.max_age_ms) {
+    faults.push_back(
+        {place_of(keys, {"body_map.hold_ms", "body_map.max_age_ms"}),
+         fmt::format("body_map.hold_ms ({}) must not exceed body_map.max_age_ms ({}): a held face would be refused",
+                     c.body_map.hold_ms, c.body_map.max_age_ms)});
+  }
+  // YUYV shares the colour of two neighbouring pixels.
+  if (c.camera.width_px % 2 != 0) {
+    faults.push_back({place_of(keys, {"camera.width_px"}), "camera.width_px must be even"});
+  }
+  return faults;
+}
+
+std::vector<Fault> impossible_combinations(const PassiveConfig& c, const std::vector<Key>& keys) {
+  // Speeds that termios knows and the jacket's clock can make.
+  constexpr int speeds[] = {9600, 19200, 38400, 57600, 115200, 230400, 500000, 1000000};
+  if (std::find(std::begin(speeds), std::end(speeds), c.jacket.baud) != std::end(speeds)) return {};
+  return {{place_of(keys, {"jacket.baud"}),
+           fmt::format("jacket.baud is {}; serial lines know 9600, 19200, 38400, 57600, 115200, 230400, 500000 and "
+                       "1000000",
+                       c.jacket.baud)}};
+}
+
+}  // namespace telehug

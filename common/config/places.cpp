@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "config/places.hpp"
+
+#include <unistd.h>
+
+#include <cstdlib>
+#include <string>
+
+namespace telehug {
+namespace {
+
+std::string environment(const char* name) {
+  const char* value = std::getenv(name);
+  return value == nullptr ? "" : value;
+}
+
+std::filesystem::path state_folder() {
+  // systemd lists several folders separated by colons; the first is the unit's main one.
+  if (const std::string given = environment("STATE_DIRECTORY"); !given.empty()) return given.substr(0, given.find(':'));
+  if (const std::string xdg = environment("XDG_STATE_HOME"); xdg.starts_with('/')) {
+    return std::filesystem::path(xdg) / "telehug";
+  }
+  const std::string home = environment("HOME");
+  if (geteuid() == 0 || home.empty()) return "/var/lib/telehug";
+  return std::filesystem::path(home) / ".local/state/telehug";
+}
+
+}  // namespace
+
+std::filesystem::path rig_file(const RigConfig& config) {
+  return config.calibration_file.empty() ? state_folder() / "rig.toml" : std::filesystem::path(config.calibration_file);
+}
+
+std::filesystem::path jacket_profile_file(const JacketConfig& config) {
+  const std::filesystem::path installed = std::filesystem::path(TELEHUG_DATA_DIR) / "jackets";
+  if (config.profile.empty()) return installed / "legacy-16-motor.toml";
+  const std::filesystem::path given = config.profile;
+  std::error_code ignored;
+  if (given.is_absolute() || std::filesystem::exists(given, ignored)) return given;
+  return std::filesystem::exists(installed / given, ignored) ? installed / given : given;
+}
+
+}  // namespace telehug

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Where the files are that the configuration does not name.
+#pragma once
+
+#include <filesystem>
+
+#include "config/config.hpp"
+
+namespace telehug {
+
+// The calibration file: as configured; else rig.toml in the first of $STATE_DIRECTORY (set by systemd),
+// $XDG_STATE_HOME/telehug, /var/lib/telehug (root), ~/.local/state/telehug that applies.
+[[nodiscard]] std::filesystem::path rig_file(const RigConfig& config);
+
+// The jacket profile: as configured, else the installed one of the 16-motor jacket. A relative path that does not
+// exist from here, such as "legacy-16-motor.toml", is looked for among the installed profiles.
+[[nodiscard]] std::filesystem::path jacket_profile_file(const JacketConfig& config);
+
+}  // namespace telehug
