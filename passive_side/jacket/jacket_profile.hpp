@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// What a jacket is: its actuators, where they sit on the body, and how strong each may get. Loaded from
+// deploy/jackets/*.toml by load_jacket_profile.hpp, which guarantees every range stated here.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "common/units.hpp"
+#include "jacket/drive.hpp"
+
+namespace telehug {
+
+inline constexpr int jacket_profile_format = 1;
+inline constexpr std::uint8_t motor_channels = 16;  // of the microcontroller: 0..15
+
+// The grid to which a profile's box numbers refer (thesis: five boxes of half a face height per row, centred on the
+// midline, from the chin down).
+inline constexpr int standard_columns = 5;
+inline constexpr double standard_box_side_fh = 0.5;
+inline constexpr int largest_box = 100;  // twenty rows: farther down than any camera sees
+
+enum class ActuatorKind : std::uint8_t { motor };
+enum class BodySide : std::uint8_t { front, back };
+
+// What to do with a touch whose box no actuator serves.
+enum class Uncovered : std::uint8_t {
+  nearest,  // the actuator that is nearest to it on the body
+  none,     // nothing; the sender is told
+};
+
+struct Actuator {
+  std::uint8_t id = 0;  // 1..255, unique
+  std::string name;
+  ActuatorKind kind = ActuatorKind::motor;
+  std::uint8_t channel = 0;  // 0..15, unique
+  BodyPoint place;           // x positive: right edge of the screen, the wearer's own left (units.hpp)
+  BodySide side = BodySide::front;
+  std::vector<std::uint16_t> boxes;  // of the standard grid, 1..largest_box
+  double max_strength = 1;           // of full power, 0..1; nothing exceeds it
+  double min_strength = 0;           // least that turns, 0..max_strength
+};
+
+struct JacketProfile {
+  int version = jacket_profile_format;
+  std::string name;
+  int baud = 0;
+  Uncovered uncovered = Uncovered::none;
+  std::vector<Actuator> actuators;  // 1..max_actuators
+  std::vector<std::string> notes;   // what the author may want to know; no faults
+
+  // Place in `actuators`.
+  [[nodiscard]] std::optional<std::size_t> index_of(std::uint8_t id) const noexcept {
+    for (std::size_t index = 0; index < actuators.size(); ++index) {
+      if (actuators[index].id == id) return index;
+    }
+    return std::nullopt;
+  }
+};
+
+}  // namespace telehug

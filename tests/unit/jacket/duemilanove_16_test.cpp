@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Golden test of the shipped jacket: touches in, exact commands out.
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <map>
+
+#include "doubles/fake_jacket_link.hpp"
+#include "jacket/load_jacket_profile.hpp"
+#include "jacket/touch_to_drives.hpp"
+#include "safety/safety_stage.hpp"
+#include "unit/jacket/jacket_builders.hpp"
+
+namespace telehug {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::IsEmpty;
+
+constexpr int full = 204;  // 0.8 of 255
+constexpr int least = 90;  // 0.35 of 255, rounded up
+
+JacketProfile shipped() {
+  auto profile = load_jacket_profile(TELEHUG_SOURCE "/deploy/jackets/duemilanove-16.toml");
+  if (!profile) throw std::runtime_error(profile.error().message);
+  return std::move(profile).value();
+}
+
+std::string text(const MotorCommands& commands) {
+  std::string all;
+  for (const MotorCommand& command : commands) {
+    all += fmt::format("{}{}={} {}ms", all.empty() ? "" : ", ", command.channel, command.intensity,
+                       to_ms(command.duration));
+  }
+  return all;
+}
+
+// The commands of the first frame that a single touch causes.
+std::string commands_for(const Contact& contact) {
+  const JacketProfile profile = shipped();
+  FakeJacket jacket;
+  SafetyStage safety(std::make_unique<FakeJacketLink>(jacket), profile, {});
+  const Timestamp now = from_ns(1'000'000'000);
+  safety.tick(now);
+  safety.on_heartbeat(now);
+  safety.apply(touch_to_drives(event_of(1, {contact}), {}, profile, {}, now, 200ms).drives, now);
+  return jacket.frames.empty() ? "" : text(jacket.frames.front().commands);
+}
+
+TEST(Duemilanove16, drives_exactly_the_motors_of_each_box) {
+  const std::map<int, std::string> golden{
+      {1, "0=204 200ms"},   {2, "1=204 200ms"},   {3, "1=204 200ms, 2=204 200ms"},
+      {4, "2=204 200ms"},   {5, "3=204 200ms"},   {6, "4=204 200ms"},
+      {7, "5=204 200ms"},   {8, "6=204 200ms"},   {9, "7=204 200ms"},
+      {10, "8=204 200ms"},  {11, "9=204 200ms"},  {12, "10=204 200ms"},
+      {13, "11=204 200ms"}, {14, "12=204 200ms"}, {15, "13=204 200ms"},
+      {16, "9=204 200ms"},  {17, "14=204 200ms"}, {18, "14=204 200ms, 15=204 200ms"},
+      {19, "15=204 200ms"}, {20, "13=204 200ms"},
+  };
+  for (const auto& [box, commands] : golden)
+    EXPECT_EQ(commands_for(contact_in(box)), commands) << "box " << box;
+}
+
+TEST(Duemilanove16, sends_a_touch_below_its_last_row_to_the_nearest_motor) {
+  Contact below = contact_in(22);
+  below.grid = {5, 6};
+  EXPECT_EQ(commands_for(below), "14=204 200ms");
+}
+
+TEST(Duemilanove16, spreads_strength_between_the_least_that_turns_and_the_most_allowed) {
+  const std::map<double, int> golden{{0.0, 0}, {0.001, least}, {0.25, 119}, {0.5, 147}, {1.0, full}, {7.0, full}};
+  for (const auto& [strength, intensity] : golden) {
+    Contact touch = contact_in(8);
+    touch.strength = strength;
+    const std::string expected = intensity == 0 ? "" : fmt::format("6={} 200ms", intensity);
+    EXPECT_EQ(commands_for(touch), expected) << "strength " << strength;
+  }
+}
+
+TEST(Duemilanove16, covers_four_rows_with_all_sixteen_channels) {
+  const JacketProfile profile = shipped();
+  EXPECT_THAT(profile.notes, IsEmpty());
+  ASSERT_EQ(profile.actuators.size(), 16U);
+  for (std::size_t i = 0; i < 16; ++i)
+    EXPECT_EQ(profile.actuators[i].channel, i);
+}
+
+TEST(Duemilanove16, places_every_motor_in_a_box_that_it_serves_and_on_the_side_that_its_name_tells) {
+  for (const Actuator& actuator : shipped().actuators) {
+    const bool inside = std::ranges::any_of(actuator.boxes, [&](int box) {
+      return std::abs(actuator.place.x_fh - middle_of(box).x_fh) <= 0.25 &&
+             std::abs(actuator.place.y_fh - middle_of(box).y_fh) <= 0.25;
+    });
+    EXPECT_TRUE(inside) << actuator.name;
+    if (actuator.name.starts_with("right")) EXPECT_LT(actuator.place.x_fh, 0) << actuator.name;
+    if (actuator.name.starts_with("left")) EXPECT_GT(actuator.place.x_fh, 0) << actuator.name;
+  }
+}
+
+TEST(Duemilanove16, keeps_motors_far_enough_apart_to_be_told_from_each_other) {
+  const JacketProfile profile = shipped();
+  for (const Actuator& one : profile.actuators) {
+    for (const Actuator& other : profile.actuators) {
+      if (one.id >= other.id) continue;
+      EXPECT_GE(std::hypot(one.place.x_fh - other.place.x_fh, one.place.y_fh - other.place.y_fh), 0.4)
+          << one.name << " and " << other.name;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace telehug

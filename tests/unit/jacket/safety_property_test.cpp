@@ -1,0 +1,223 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Whatever comes in, what reaches the jacket stays within every limit and ends.
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <limits>
+#include <random>
+
+#include "doubles/fake_jacket_link.hpp"
+#include "safety/safety_stage.hpp"
+#include "unit/jacket/jacket_builders.hpp"
+
+namespace telehug {
+namespace {
+
+class Adversary {
+ public:
+  explicit Adversary(std::uint32_t seed) : random_(seed) {}
+
+  int whole(int least, int most) { return std::uniform_int_distribution(least, most)(random_); }
+  double real(double least, double most) { return std::uniform_real_distribution(least, most)(random_); }
+  bool one_in(int n) { return whole(1, n) == 1; }
+
+  double strength() {
+    static constexpr double odd[]{std::numeric_limits<double>::quiet_NaN(),
+                                  std::numeric_limits<double>::infinity(),
+                                  -std::numeric_limits<double>::infinity(),
+                                  -1,
+                                  0,
+                                  1e-300,
+                                  1,
+                                  1e300};
+    return one_in(3) ? odd[whole(0, 7)] : real(-0.2, 1.4);
+  }
+  Timestamp end(Timestamp now) {
+    static const Timestamp odd[]{Timestamp::min(), Timestamp{}, now, Timestamp::max()};
+    return one_in(4) ? odd[whole(0, 3)] : now + std::chrono::milliseconds(whole(-100, 3000));
+  }
+  Drives drives(Timestamp now) {
+    Drives made;
+    for (int n = whole(0, one_in(10) ? 32 : 4); n > 0; --n) {
+      made.push_back({static_cast<std::uint8_t>(one_in(8) ? whole(0, 255) : whole(1, 8)), strength(), end(now)});
+    }
+    return made;
+  }
+
+ private:
+  std::mt19937 random_;
+};
+
+JacketProfile random_profile(Adversary& adversary) {
+  JacketProfile profile = profile_of({});
+  for (int id = 1; id <= 8; ++id) {
+    Actuator made = motor(static_cast<std::uint8_t>(id), {}, {});
+    made.channel = static_cast<std::uint8_t>(15 - id);
+    made.max_strength = adversary.real(0, 1);
+    made.min_strength = adversary.real(0, made.max_strength);
+    profile.actuators.push_back(made);
+  }
+  return profile;
+}
+
+// A daemon that lives through everything that can happen to it, on a fake clock, checked at every step.
+class HauntedJacket {
+ public:
+  explicit HauntedJacket(std::uint32_t seed)
+      : adversary_(seed),
+        profile_(random_profile(adversary_)),
+        limits_{adversary_.real(0, 1), std::chrono::milliseconds(adversary_.whole(1, 2000)),
+                std::chrono::milliseconds(adversary_.whole(1, 250))},
+        safety_(std::make_unique<FakeJacketLink>(jacket_), profile_, limits_) {
+    for (const Actuator& actuator : profile_.actuators) {
+      const double most = std::min(actuator.max_strength, limits_.max_strength);
+      most_.at(actuator.channel) = most;
+    }
+  }
+
+  // One random happening, at most 20 ms after the last, then a check.
+  void step() {
+    move_clock();
+    switch (adversary_.whole(0, 11)) {
+      case 0:
+        jacket_.next_state = static_cast<LinkState>(adversary_.whole(0, 2));
+        break;
+      case 1:
+        jacket_.loses_frames = adversary_.one_in(4);
+        break;
+      case 2:
+        jacket_.accepts_frames = !adversary_.one_in(4);
+        break;
+      case 3:
+        stop();
+        break;
+      case 4:
+        safety_.resume();
+        break;
+      case 5:
+        if (adversary_.one_in(4)) safety_.all_off(now_);
+        break;
+      case 6:
+        jacket_.next_state = LinkState::armed;
+        break;
+      case 7:
+      case 8:
+        heartbeat();
+        break;
+      default:
+        apply();
+        break;
+    }
+    safety_.tick(now_);
+    check();
+  }
+
+  // The sender falls silent; everything is off 300 ms later, whatever it sent last.
+  void sender_dies() {
+    for (Duration passed{}; passed < 300ms; passed += 20ms) {
+      now_ += 20ms;
+      if (adversary_.one_in(2)) apply();
+      safety_.tick(now_);
+      check();
+    }
+    EXPECT_THAT(jacket_.running(now_), ::testing::IsEmpty());
+    EXPECT_THAT(safety_.running(), ::testing::IsEmpty());
+  }
+
+  // The daemon is killed: nothing reaches the jacket any more.
+  void daemon_freezes() {
+    now_ += 250ms;
+    EXPECT_THAT(jacket_.running(now_), ::testing::IsEmpty());
+  }
+
+ private:
+  void move_clock() {
+    now_ += std::chrono::milliseconds(adversary_.whole(0, 20));
+    if (!adversary_.one_in(200)) return;
+    const Duration jump = std::chrono::milliseconds(adversary_.whole(-5000, 5000));
+    now_ += jump;
+    for (auto& motor : jacket_.motors)
+      motor.end += jump;                       // the microcontroller's own clock has not jumped
+    if (jump < 0ms) heartbeat_ = Timestamp{};  // whatever was heard before says nothing now
+  }
+
+  void heartbeat() {
+    heartbeat_ = now_;
+    safety_.on_heartbeat(now_);
+  }
+
+  void stop() {
+    if (!adversary_.one_in(4)) return;
+    safety_.stop("test", now_);
+    EXPECT_TRUE(safety_.stopped());
+  }
+
+  void apply() {
+    const SafetyVerdict verdict = safety_.apply(adversary_.drives(now_), now_);
+    if (safety_.stopped()) EXPECT_EQ(verdict.outcome, FeltOutcome::stopped);
+  }
+
+  void check() {
+    for (; checked_ < jacket_.frames.size(); ++checked_)
+      check_frame(jacket_.frames[checked_]);
+    for (const std::uint8_t id : safety_.running()) {
+      EXPECT_FALSE(safety_.stopped()) << "actuator " << int{id};
+      EXPECT_EQ(jacket_.status.state, LinkState::armed);
+      EXPECT_LT(now_, heartbeat_ + limits_.heartbeat_timeout);
+    }
+  }
+
+  void check_frame(const FakeJacket::Frame& frame) {
+    std::array<bool, 16> seen{};
+    for (const MotorCommand& command : frame.commands) {
+      ASSERT_LT(command.channel, 16);
+      EXPECT_FALSE(seen.at(command.channel)) << "a channel is commanded twice in one frame";
+      seen.at(command.channel) = true;
+      EXPECT_LE(command.intensity, most_.at(command.channel) * 255 + 1e-6) << "channel " << int{command.channel};
+      EXPECT_GE(command.duration, 0ms);
+      EXPECT_LE(command.duration, 250ms);
+      EXPECT_LE(command.duration, limits_.longest_drive);
+      if (command.intensity == 0) continue;
+      EXPECT_GT(command.duration, 0ms);
+      EXPECT_LE(frame.time + command.duration, heartbeat_ + limits_.heartbeat_timeout)
+          << "outlives what the sender's heartbeat vouches for";
+      EXPECT_FALSE(safety_.stopped());
+    }
+  }
+
+  Adversary adversary_;
+  FakeJacket jacket_;
+  JacketProfile profile_;
+  SafetyLimits limits_;
+  SafetyStage safety_;
+  std::array<double, 16> most_{};
+  Timestamp now_ = from_ns(100'000'000'000);
+  Timestamp heartbeat_ = Timestamp{};
+  std::size_t checked_ = 0;
+};
+
+TEST(SafetyStageWithAnyInput, stays_within_every_limit_and_is_off_when_the_sender_dies) {
+  for (std::uint32_t seed = 1; seed <= 300; ++seed) {
+    SCOPED_TRACE(seed);
+    HauntedJacket haunted(seed);
+    for (int step = 0; step < 400; ++step)
+      haunted.step();
+    haunted.sender_dies();
+    if (::testing::Test::HasFailure()) return;
+  }
+}
+
+TEST(SafetyStageWithAnyInput, leaves_a_jacket_that_is_silent_250_ms_after_the_daemon_dies) {
+  for (std::uint32_t seed = 1001; seed <= 1300; ++seed) {
+    SCOPED_TRACE(seed);
+    HauntedJacket haunted(seed);
+    for (int step = 0; step < 200; ++step)
+      haunted.step();
+    haunted.daemon_freezes();
+    if (::testing::Test::HasFailure()) return;
+  }
+}
+
+}  // namespace
+}  // namespace telehug
