@@ -1,0 +1,252 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "active_daemon.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+
+#include "config/places.hpp"
+#include "peer/session_id.hpp"
+#include "service/control_socket.hpp"
+
+namespace telehug {
+namespace {
+
+constexpr Duration longest_wait_for_a_frame = 50ms;  // heartbeats go out between frames
+constexpr Duration resting_round = 20ms;
+constexpr Duration housekeeping_round = 20ms;
+constexpr Duration state_interval = 100ms;
+constexpr Duration calibration_interval = 1s;
+
+DdsSettings dds_settings(const PeerConfig& config) {
+  DdsSettings settings;
+  settings.side = Side::active;
+  settings.domain_id = static_cast<std::uint32_t>(config.domain);
+  if (!config.partition.empty()) settings.partition = config.partition;
+  settings.loopback_only = config.loopback_only;
+  return settings;
+}
+
+ControlServerOptions control_options(const ControlConfig& config) {
+  ControlServerOptions options;
+  options.socket = config.socket.empty() ? default_control_socket(Side::active) : config.socket;
+  options.group = config.group;
+  return options;
+}
+
+}  // namespace
+
+ActiveDaemon::ActiveDaemon(const ActiveConfig& config, std::unique_ptr<FrameSource> camera, const Clock& clock)
+    : config_(config),
+      clock_(clock),
+      started_(clock.now()),
+      session_(new_session_id()),
+      camera_(std::move(camera)),
+      camera_name_(camera_->name()),
+      participant_(dds_settings(config.peer)),
+      touch_writer_(participant_),
+      peer_(participant_, Side::active, session_, std::chrono::milliseconds(config.heartbeat_timeout_ms)),
+      events_published_(metrics_.counter("events_published")),
+      touches_published_(metrics_.counter("touches_published")),
+      publish_failed_(metrics_.counter("events_not_published")),
+      frames_broken_(metrics_.counter("frames_broken")),
+      frames_missed_(metrics_.counter("frames_missed")),
+      camera_losses_(metrics_.counter("camera_losses")),
+      camera_latency_(metrics_.latency("camera")),
+      publish_latency_(metrics_.latency("publish")),
+      total_latency_(metrics_.latency("frame_to_published")),
+      calibration_path_(rig_file(config.rig)),
+      felt_reader_(std::make_unique<Reader<Felt>>(participant_, [this](const Felt& felt) { felt_.push(felt); })),
+      control_(std::make_unique<ControlServer>(control_options(config.control))) {
+  answer_commands();
+}
+
+ActiveDaemon::~ActiveDaemon() = default;
+
+ExitCode ActiveDaemon::run(Signals& signals) {
+  load_rig_if_changed();
+  control_->start();
+  touch_thread_ = std::thread([this] { touch_loop(); });
+  notifier_.ready();
+  spdlog::info("telehug-active {} runs; camera: {}", version, camera_name_);
+  while (true) {
+    const auto request = signals.wait(housekeeping_round);
+    if (request == SignalRequest::stop) break;
+    if (request == SignalRequest::reload) calibration_time_.reset();
+    load_rig_if_changed();
+    tell_watchers();
+    tell_peer();
+  }
+  notifier_.stopping();
+  ending_ = true;
+  touch_thread_.join();
+  spdlog::info("telehug-active ends");
+  return ExitCode::ok;
+}
+
+// --- touch thread ---
+
+void ActiveDaemon::touch_loop() {
+  while (!ending_) {
+    const Timestamp now = clock_.now();
+    peer_.serve(now);
+    adopt_rig();
+    if (camera_wanted(now)) {
+      take_frame();
+    } else {
+      rest();
+    }
+    tell_state(now);
+    notifier_.alive(now);
+  }
+  camera_->close();
+  if (rig_) publish(rig_->pipeline.process_nothing(map_, false), 0);
+}
+
+void ActiveDaemon::adopt_rig() {
+  auto fresh = new_rig_.try_take();
+  if (!fresh) return;
+  rig_ = *std::move(fresh);
+  map_ = {};
+}
+
+bool ActiveDaemon::camera_wanted(Timestamp now) {
+  const bool touches_go_out = rig_ && peer_.alive(now) && !stopped_ && !peer_.stopped_by_peer();
+  if (!touches_go_out) recording_over_ = false;
+  const bool wanted = touches_go_out && !recording_over_;
+  if (rig_) rig_->face->want(wanted);
+  // Before it is known where the remote person is, fingers mean nothing.
+  return wanted && rig_->face->has_looked();
+}
+
+void ActiveDaemon::take_frame() {
+  const std::uint64_t before = frame_.sequence;
+  if (!camera_->is_open()) {
+    frame_.sequence = 0;
+    (void)camera_->open();  // read() says why it could not
+  }
+  const ReadOutcome outcome = camera_->read(frame_, longest_wait_for_a_frame);
+  rig_->face->update(map_);
+  if (outcome == ReadOutcome::lost && !camera_lost_) camera_losses_.add();
+  camera_lost_ = outcome == ReadOutcome::lost;
+  switch (outcome) {
+    case ReadOutcome::frame:
+      camera_latency_.record(clock_.now() - frame_.time);
+      if (before != 0 && frame_.sequence > before + 1) frames_missed_.add(frame_.sequence - before - 1);
+      publish(rig_->pipeline.process(frame_, map_, true), frame_.sequence);
+      return;
+    case ReadOutcome::broken:
+      frames_broken_.add();
+      return;
+    case ReadOutcome::timeout:
+      break;
+    case ReadOutcome::ended:
+      recording_over_ = true;
+      camera_->close();
+      break;
+    case ReadOutcome::lost:
+      std::this_thread::sleep_for(resting_round);
+      break;
+  }
+  publish(rig_->pipeline.process_nothing(map_, true), frame_.sequence);
+}
+
+void ActiveDaemon::rest() {
+  camera_->close();
+  camera_lost_ = false;
+  if (rig_) {
+    rig_->face->update(map_);
+    publish(rig_->pipeline.process_nothing(map_, false), frame_.sequence);
+  }
+  std::this_thread::sleep_for(resting_round);
+}
+
+void ActiveDaemon::publish(const TouchEvent* event, std::uint64_t frame_sequence) {
+  if (event == nullptr) return;
+  const Timestamp started = clock_.now();
+  if (!touch_writer_.write(*event)) {
+    publish_failed_.add();
+    return;
+  }
+  const Timestamp published = clock_.now();
+  publish_latency_.record(published - started);
+  events_published_.add();
+  if (!event->contacts.empty()) total_latency_.record(published - from_ns(event->frame_time_ns));
+  for (const Contact& contact : event->contacts) {
+    const SentTouch sent{event->sequence, event->frame_time_ns, frame_sequence, contact};
+    own_state_.last_touch = sent;
+    if (contact.phase == Phase::down) touches_published_.add();
+    sent_touches_.push(sent);
+  }
+  // An up of a contact that left the grid stands only among the transitions.
+  for (const Transition& transition : event->transitions) {
+    const bool known = std::any_of(event->contacts.begin(), event->contacts.end(),
+                                   [&](const Contact& contact) { return contact.id == transition.contact.id; });
+    if (transition.event_sequence == event->sequence && !known) {
+      sent_touches_.push({event->sequence, event->frame_time_ns, frame_sequence, transition.contact});
+    }
+  }
+}
+
+void ActiveDaemon::tell_state(Timestamp now) {
+  if (now - told_state_ < state_interval) return;
+  const std::unique_lock lock(state_mutex_, std::try_to_lock);
+  if (!lock.owns_lock()) return;
+  told_state_ = now;
+  own_state_.camera_open = camera_->is_open() && !camera_lost_;
+  own_state_.camera_lost = camera_lost_;
+  own_state_.recording_over = recording_over_;
+  own_state_.camera_problem = camera_->last_error();
+  own_state_.face = rig_ ? rig_->face : nullptr;
+  own_state_.peer = peer_.state(now);
+  if (rig_) own_state_.nobody = rig_->pipeline.nobody_touched();
+  state_ = own_state_;
+}
+
+// --- housekeeping ---
+
+void ActiveDaemon::load_rig_if_changed() {
+  const Timestamp now = clock_.now();
+  if (calibration_time_ && now - calibration_looked_at_ < calibration_interval) return;
+  calibration_looked_at_ = now;
+  std::error_code no_file;
+  const auto time = std::filesystem::last_write_time(calibration_path_, no_file);
+  if (calibration_time_ == time) return;
+  calibration_time_ = time;
+
+  auto rig = make_rig(config_, session_, clock_, metrics_);
+  const std::string problem = rig ? "" : rig.error().message;
+  if (rig) {
+    new_rig_.put(*std::move(rig));
+    say_rig_.say(spdlog::level::info, fmt::format("calibration: {}", calibration_path_.string()));
+  } else {
+    say_rig_.say(spdlog::level::warn, problem);
+  }
+  const std::lock_guard lock(words_mutex_);
+  rig_problem_ = problem;
+}
+
+void ActiveDaemon::tell_peer() {
+  if (const bool stopped = stopped_; stopped != told_stopped_) {
+    const std::lock_guard lock(words_mutex_);
+    peer_.tell_stop(stopped, stop_reason_);
+    told_stopped_ = stopped;
+  }
+  if (auto peer_status = peer_.take_peer_status()) {
+    const std::lock_guard lock(words_mutex_);
+    peer_status_ = *std::move(peer_status);
+  }
+  SideStatus own;
+  own.session = session_;
+  own.side = Side::active;
+  own.version = version;
+  own.stopped = stopped_;
+  {
+    const std::lock_guard lock(words_mutex_);
+    own.ready = rig_problem_.empty() && !own.stopped;
+    own.reason = own.stopped ? stop_reason_ : rig_problem_;
+  }
+  peer_.tell(own);
+}
+
+}  // namespace telehug

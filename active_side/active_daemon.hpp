@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <atomic>
+#include <boost/lockfree/spsc_queue.hpp>
+#include <filesystem>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <thread>
+
+#include "capture/frame_source.hpp"
+#include "common/latest_slot.hpp"
+#include "common/version.hpp"
+#include "config/config.hpp"
+#include "dds/participant.hpp"
+#include "dds/reader.hpp"
+#include "dds/writer.hpp"
+#include "peer_link/peer_link.hpp"
+#include "rig.hpp"
+#include "service/control_server.hpp"
+#include "service/exit_code.hpp"
+#include "service/log.hpp"
+#include "service/metrics.hpp"
+#include "service/notifier.hpp"
+#include "service/signals.hpp"
+
+namespace telehug {
+
+// One contact of an event that was sent, for those who watch.
+struct SentTouch {
+  std::uint64_t event_sequence = 0;
+  std::int64_t frame_time_ns = 0;
+  std::uint64_t frame_sequence = 0;
+  Contact contact;
+};
+
+// What the touch thread tells of itself, for status.
+struct TouchThreadState {
+  bool camera_open = false;
+  bool camera_lost = false;
+  bool recording_over = false;
+  std::string camera_problem;
+  std::shared_ptr<FaceWorker> face;
+  PeerState peer;
+  NobodyTouched nobody;
+  std::optional<SentTouch> last_touch;
+};
+
+// The parent's PC: one thread for the touch path, one for the face (FaceWorker), the calling one for everything that
+// may take its time. The camera is open and the screen looked at only while a peer is connected.
+class ActiveDaemon {
+ public:
+  // Throws AlreadyRunning, std::runtime_error or std::invalid_argument with a sentence for a person.
+  ActiveDaemon(const ActiveConfig& config, std::unique_ptr<FrameSource> camera, const Clock& clock);
+  ~ActiveDaemon();
+  ActiveDaemon(const ActiveDaemon&) = delete;
+  ActiveDaemon& operator=(const ActiveDaemon&) = delete;
+
+  // Until SIGTERM or SIGINT.
+  ExitCode run(Signals& signals);
+
+ private:
+  // Touch thread
+  void touch_loop();
+  void adopt_rig();
+  [[nodiscard]] bool camera_wanted(Timestamp now);
+  void take_frame();
+  void rest();
+  void publish(const TouchEvent* event, std::uint64_t frame_sequence);
+  void tell_state(Timestamp now);
+
+  // Housekeeping
+  void load_rig_if_changed();
+  void tell_watchers();
+  void tell_peer();
+  void answer_commands();
+  nlohmann::json status() const;
+  nlohmann::json problems(const TouchThreadState& state, const FaceState& face) const;
+  nlohmann::json set_stopped(bool stopped, const std::string& reason);
+
+  ActiveConfig config_;
+  const Clock& clock_;
+  Timestamp started_;
+  SessionId session_;
+  MetricsRegistry metrics_;
+  Notifier notifier_;
+
+  std::unique_ptr<FrameSource> camera_;
+  const std::string camera_name_;
+  DdsParticipant participant_;
+  Writer<TouchEvent> touch_writer_;
+  PeerLink peer_;
+
+  // Touch thread
+  std::unique_ptr<Rig> rig_;
+  Frame frame_;
+  BodyMap map_;
+  bool camera_lost_ = false;
+  bool recording_over_ = false;
+  Timestamp told_state_;
+  TouchThreadState own_state_;
+  Counter& events_published_;
+  Counter& touches_published_;
+  Counter& publish_failed_;
+  Counter& frames_broken_;
+  Counter& frames_missed_;
+  Counter& camera_losses_;
+  LatencyHistogram& camera_latency_;
+  LatencyHistogram& publish_latency_;
+  LatencyHistogram& total_latency_;
+
+  // Between the threads
+  LatestSlot<std::unique_ptr<Rig>> new_rig_;
+  std::atomic<bool> stopped_ = false;
+  std::atomic<bool> ending_ = false;
+  mutable std::mutex state_mutex_;
+  TouchThreadState state_;
+  boost::lockfree::spsc_queue<SentTouch, boost::lockfree::capacity<1024>> sent_touches_;
+  boost::lockfree::spsc_queue<Felt, boost::lockfree::capacity<1024>> felt_;
+
+  // Housekeeping
+  const std::filesystem::path calibration_path_;
+  std::optional<std::filesystem::file_time_type> calibration_time_;
+  Timestamp calibration_looked_at_;
+  mutable std::mutex words_mutex_;  // guards the sentences below, which the control thread reads
+  std::string rig_problem_;
+  std::string stop_reason_;
+  std::optional<SideStatus> peer_status_;
+  bool told_stopped_ = false;
+  bool told_recording_over_ = false;
+  SayOnChange say_camera_;
+  SayOnChange say_peer_;
+  SayOnChange say_face_;
+  SayOnChange say_rig_;
+
+  std::unique_ptr<Reader<Felt>> felt_reader_;
+  std::unique_ptr<ControlServer> control_;
+  std::thread touch_thread_;
+};
+
+}  // namespace telehug

@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// What the active daemon tells people: answers on the local socket, events for those who watch, the log.
+#include <fmt/core.h>
+
+#include "active_daemon.hpp"
+#include "common/names.hpp"
+
+namespace telehug {
+namespace {
+
+using Json = nlohmann::json;
+
+Json touch_json(const SentTouch& touch) {
+  const Contact& contact = touch.contact;
+  return {{"event_sequence", touch.event_sequence},
+          {"frame_time_ns", touch.frame_time_ns},
+          {"frame", touch.frame_sequence},
+          {"contact", contact.id},
+          {"phase", name_of(contact.phase)},
+          {"box", contact.box},
+          {"columns", contact.grid.columns},
+          {"rows", contact.grid.rows},
+          {"x_mm", contact.screen.x_mm},
+          {"y_mm", contact.screen.y_mm},
+          {"x_fh", contact.body.x_fh},
+          {"y_fh", contact.body.y_fh},
+          {"speed_mm_s", contact.speed_mm_s}};
+}
+
+Json felt_json(const Felt& felt) {
+  Json actuators = Json::array();
+  for (const std::uint8_t id : felt.actuators)
+    actuators.push_back(id);
+  return {{"event", "felt"},
+          {"side", "active"},
+          {"event_sequence", felt.touch_sequence},
+          {"contact", felt.contact_id},
+          {"phase", name_of(felt.phase)},
+          {"box", felt.box},
+          {"outcome", name_of(felt.outcome)},
+          {"actuators", actuators}};
+}
+
+Json problem(std::string what, std::string to_do) {
+  return {{"what", std::move(what)}, {"do", std::move(to_do)}};
+}
+
+}  // namespace
+
+void ActiveDaemon::answer_commands() {
+  control_->on("status", [this](const Json&) { return status(); });
+  control_->on("stop", [this](const Json& request) {
+    return set_stopped(true, request.value("reason", std::string("stopped on this side")));
+  });
+  control_->on("resume", [this](const Json&) { return set_stopped(false, ""); });
+}
+
+Json ActiveDaemon::set_stopped(bool stopped, const std::string& reason) {
+  {
+    const std::lock_guard lock(words_mutex_);
+    stop_reason_ = reason.substr(0, 200);
+  }
+  stopped_ = stopped;
+  spdlog::warn("{}", stopped ? "stopped: " + reason : "resumed");
+  return {{"stopped", stopped}};
+}
+
+Json ActiveDaemon::problems(const TouchThreadState& state, const FaceState& face) const {
+  Json list = Json::array();
+  const std::lock_guard lock(words_mutex_);
+  if (!rig_problem_.empty()) list.push_back(problem(rig_problem_, "run `telehug-active calibrate`, or correct the file"));
+  if (stopped_) list.push_back(problem("stopped here: " + stop_reason_, "run `telehug resume`"));
+  if (peer_.stopped_by_peer()) {
+    const std::string why = peer_status_ && !peer_status_->reason.empty() ? ": " + peer_status_->reason : "";
+    list.push_back(problem("the other side has stopped everything" + why, "ask them to resume"));
+  }
+  if (!state.peer.alive) {
+    list.push_back(problem("no peer is connected", "start telehug-passive on the other PC; domain and partition must agree"));
+  } else if (peer_status_ && !peer_status_->ready && !peer_status_->stopped) {
+    list.push_back(problem("the other side is not ready: " + peer_status_->reason, "see `telehug status` on the other PC"));
+  }
+  if (state.camera_lost) list.push_back(problem(state.camera_problem, "plug the camera in, or correct [camera]"));
+  if (state.recording_over) list.push_back(problem("the recording is over", "start again to replay it"));
+  if (face.open && !face.problem.empty()) {
+    list.push_back(problem(face.problem, "touches are not sent until a face is found; check [body_map] picture"));
+  }
+  return list;
+}
+
+Json ActiveDaemon::status() const {
+  TouchThreadState state;
+  {
+    const std::lock_guard lock(state_mutex_);
+    state = state_;
+  }
+  const FaceState face = state.face ? state.face->state() : FaceState{};
+  const bool stopped = stopped_ || peer_.stopped_by_peer();
+  const bool fault = state.camera_lost || !state.face || (face.open && !face.problem.empty());
+
+  Json counters = metrics_.counters_json();
+  counters["touches_without_face"] = state.nobody.no_face;
+  counters["touches_with_old_map"] = state.nobody.map_too_old;
+  counters["touches_outside_grid"] = state.nobody.outside_grid;
+  counters["peer_losses"] = state.peer.losses;
+  counters["messages_dropped"] = peer_.dropped();
+
+  Json peer = {{"connected", state.peer.alive}, {"session", state.peer.session}};
+  if (state.peer.round_trip) peer["round_trip_ms"] = to_ms(*state.peer.round_trip);
+  {
+    const std::lock_guard lock(words_mutex_);
+    if (peer_status_ && state.peer.alive) {
+      peer["stopped"] = peer_status_->stopped;
+      peer["ready"] = peer_status_->ready;
+      peer["reason"] = peer_status_->reason;
+    }
+  }
+  const char* open_why = state.camera_open      ? "a peer is connected"
+                         : state.recording_over ? "the recording is over"
+                         : state.camera_lost    ? "it can't be used"
+                         : stopped              ? "stopped"
+                         : !state.face          ? "not calibrated"
+                                                : "nobody needs it";
+  Json answer = {{"side", "active"},
+                 {"version", version},
+                 {"session", session_},
+                 {"uptime_s", std::chrono::duration<double>(clock_.now() - started_).count()},
+                 {"state", stopped             ? "stopped"
+                           : fault             ? "fault"
+                           : !state.peer.alive ? "waiting"
+                                               : "ok"},
+                 {"problems", problems(state, face)},
+                 {"peer", peer},
+                 {"camera", {{"name", camera_name_}, {"open", state.camera_open}, {"why", open_why}}},
+                 {"screen", {{"name", face.screen}, {"open", face.open}}},
+                 {"face", {{"found", face.map.version != 0}, {"map_version", face.map.version}}},
+                 {"detector", {{"name", "thesis"}, {"model", "thesis"}}},
+                 {"counters", counters},
+                 {"latency_ms", metrics_.latencies_json()}};
+  if (face.map.version != 0) answer["face"]["rows"] = face.map.shape.rows;
+  if (state.last_touch) answer["last_touch"] = touch_json(*state.last_touch);
+  return answer;
+}
+
+void ActiveDaemon::tell_watchers() {
+  SentTouch touch;
+  while (sent_touches_.pop(touch)) {
+    if (!control_->has_watchers()) continue;
+    Json event = touch_json(touch);
+    event["event"] = "touch";
+    event["side"] = "active";
+    control_->broadcast(std::move(event));
+  }
+  Felt felt;
+  while (felt_.pop(felt))
+    control_->broadcast(felt_json(felt));
+
+  TouchThreadState state;
+  {
+    const std::lock_guard lock(state_mutex_);
+    state = state_;
+  }
+  if (state.recording_over && !told_recording_over_) {
+    control_->broadcast({{"event", "recording_over"}, {"side", "active"}});
+  }
+  told_recording_over_ = state.recording_over;
+  const FaceState face = state.face ? state.face->state() : FaceState{};
+  say_peer_.say(spdlog::level::info, state.peer.alive ? "peer connected" : "no peer");
+  say_camera_.say(state.camera_lost ? spdlog::level::warn : spdlog::level::info,
+                  state.camera_lost ? state.camera_problem : state.camera_open ? "camera open" : "camera closed");
+  if (face.open) {
+    say_face_.say(face.problem.empty() ? spdlog::level::info : spdlog::level::warn,
+                  face.problem.empty() ? "face found" : face.problem);
+  }
+}
+
+}  // namespace telehug

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "rig.hpp"
+
+#include <fmt/core.h>
+
+#include <cmath>
+
+#include "body_map/haar_face_finder.hpp"
+#include "body_map/picture_grabber.hpp"
+#include "config/places.hpp"
+
+namespace telehug {
+namespace {
+
+bool differs(double configured_mm, double calibrated_mm) {
+  return configured_mm > 0 && std::abs(configured_mm - calibrated_mm) > 1;
+}
+
+}  // namespace
+
+Result<std::unique_ptr<Rig>> make_rig(const ActiveConfig& config, const SessionId& session, const Clock& clock,
+                                      MetricsRegistry& metrics) {
+  const std::filesystem::path path = rig_file(config.rig);
+  if (!std::filesystem::exists(path)) {
+    return Error{fmt::format("there is no calibration yet ({}); make one with `telehug-active calibrate`",
+                             path.string())};
+  }
+  auto calibration = read_calibration(path);
+  if (!calibration) return calibration.error();
+  const ScreenSize& screen = calibration->screen;
+  if (differs(config.rig.screen.width_mm, screen.width_mm) || differs(config.rig.screen.height_mm, screen.height_mm)) {
+    return Error{fmt::format("{} was made for a screen of {:.0f} x {:.0f} mm, but [rig] of the configuration says "
+                             "{:.0f} x {:.0f} mm; calibrate again or correct the configuration",
+                             path.string(), screen.width_mm, screen.height_mm, config.rig.screen.width_mm,
+                             config.rig.screen.height_mm)};
+  }
+  auto finder = make_haar_face_finder();
+  if (!finder) return finder.error();
+
+  ActivePipelineOptions options;
+  options.tracker.up_after = std::chrono::milliseconds(config.touch.up_after_ms);
+  options.max_map_age = std::chrono::milliseconds(config.body_map.max_age_ms);
+  BodyMapStepConfig step;
+  step.screen = screen;
+  step.tracker.hold = std::chrono::milliseconds(config.body_map.hold_ms);
+  PictureGrabberConfig grabber;
+  grabber.path = config.body_map.picture;
+  auto face = std::make_shared<FaceWorker>(std::make_unique<PictureGrabber>(grabber, clock), *std::move(finder), step,
+                                           config.body_map.rate_hz, clock, metrics);
+  return std::make_unique<Rig>(
+      Rig{ActivePipeline(*calibration, options, session, clock, metrics), std::move(face)});
+}
+
+}  // namespace telehug

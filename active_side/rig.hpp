@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+
+#include "active_pipeline.hpp"
+#include "common/result.hpp"
+#include "config/config.hpp"
+#include "face_worker.hpp"
+
+namespace telehug {
+
+// What a calibration brings to life: the touch path of its camera and screen, and the face on that screen.
+struct Rig {
+  ActivePipeline pipeline;
+  std::shared_ptr<FaceWorker> face;
+};
+
+// The error says what is wrong with the calibration, with the configuration for it, or with the face finder, and what
+// to do. `clock` and `metrics` outlive the rig.
+Result<std::unique_ptr<Rig>> make_rig(const ActiveConfig& config, const SessionId& session, const Clock& clock,
+                                      MetricsRegistry& metrics);
+
+}  // namespace telehug

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "peer_link/peer_link.hpp"
+
+namespace telehug {
+namespace {
+
+bool same(const SideStatus& a, const SideStatus& b) {
+  return a.ready == b.ready && a.stopped == b.stopped && a.reason == b.reason;
+}
+
+}  // namespace
+
+PeerLink::PeerLink(DdsParticipant& participant, Side side, const SessionId& session, Duration heartbeat_timeout)
+    : side_(side),
+      session_(session),
+      exchange_(session, side),
+      monitor_(heartbeat_timeout),
+      heartbeat_writer_(participant),
+      status_writer_(participant),
+      stop_writer_(participant),
+      heartbeat_reader_(participant, [this](const Heartbeat& heartbeat) { heartbeat_slot_.put(heartbeat); }),
+      status_reader_(participant, [this](const SideStatus& status) { status_slot_.put(status); }),
+      stop_reader_(participant, [this](const StopAll& stop) { stopped_by_peer_ = stop.stop; }) {}
+
+bool PeerLink::serve(Timestamp now) {
+  bool fresh = false;
+  if (const auto heartbeat = heartbeat_slot_.take()) {
+    fresh = monitor_.heard(*heartbeat, now);
+    if (fresh) exchange_.heard(*heartbeat, now);
+  }
+  if (now >= exchange_.next_due()) heartbeat_writer_.write(exchange_.beat(now));
+  return fresh;
+}
+
+PeerState PeerLink::state(Timestamp now) {
+  return {monitor_.alive(now), monitor_.session(), exchange_.smoothed_round_trip(), monitor_.losses()};
+}
+
+void PeerLink::tell(const SideStatus& status) {
+  if (told_ && same(*told_, status)) return;
+  if (status_writer_.write(status)) told_ = status;
+}
+
+void PeerLink::tell_stop(bool stop, const std::string& reason) {
+  stop_writer_.write({session_, side_, ++stops_told_, stop, reason});
+}
+
+std::uint64_t PeerLink::dropped() const noexcept {
+  std::uint64_t dropped = 0;
+  for (const ReaderCounters& counters :
+       {heartbeat_reader_.counters(), status_reader_.counters(), stop_reader_.counters()}) {
+    dropped += counters.malformed + counters.invalid;
+  }
+  return dropped;
+}
+
+}  // namespace telehug

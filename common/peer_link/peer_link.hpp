@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <atomic>
+#include <optional>
+#include <string>
+
+#include "common/clock.hpp"
+#include "common/latest_slot.hpp"
+#include "common/messages.hpp"
+#include "dds/participant.hpp"
+#include "dds/reader.hpp"
+#include "dds/writer.hpp"
+#include "peer/heartbeat_exchange.hpp"
+#include "peer/peer_monitor.hpp"
+
+namespace telehug {
+
+// What one side knows of the other, for its status.
+struct PeerState {
+  bool alive = false;
+  SessionId session;
+  std::optional<Duration> round_trip;
+  std::uint64_t losses = 0;
+};
+
+// Heartbeats, status and stop between this side and the other. Serve it from the pipeline's own thread: a heartbeat
+// says that the pipeline runs.
+class PeerLink {
+ public:
+  // Throws as Reader and Writer do. `participant` outlives it.
+  PeerLink(DdsParticipant& participant, Side side, const SessionId& session, Duration heartbeat_timeout);
+
+  // --- pipeline's thread ---
+
+  // Takes in what came and sends what is due. True: a fresh heartbeat of the peer was among it.
+  bool serve(Timestamp now);
+
+  [[nodiscard]] bool alive(Timestamp now) noexcept { return monitor_.alive(now); }
+  [[nodiscard]] const SessionId& peer_session() const noexcept { return monitor_.session(); }
+  [[nodiscard]] PeerState state(Timestamp now);
+
+  // --- housekeeping thread ---
+
+  // Tells the peer if it differs from what was told last.
+  void tell(const SideStatus& status);
+  void tell_stop(bool stop, const std::string& reason);
+  [[nodiscard]] std::optional<SideStatus> take_peer_status() { return status_slot_.take(); }
+
+  // --- any thread ---
+
+  // Has the peer turned everything off, and not on again?
+  [[nodiscard]] bool stopped_by_peer() const noexcept { return stopped_by_peer_; }
+  [[nodiscard]] std::uint64_t dropped() const noexcept;  // messages that were malformed or out of range
+
+ private:
+  Side side_;
+  SessionId session_;
+  HeartbeatExchange exchange_;
+  PeerMonitor monitor_;
+  LatestSlot<Heartbeat> heartbeat_slot_;
+  LatestSlot<SideStatus> status_slot_;
+  std::atomic<bool> stopped_by_peer_ = false;
+  std::optional<SideStatus> told_;
+  std::uint64_t stops_told_ = 0;
+
+  Writer<Heartbeat> heartbeat_writer_;
+  Writer<SideStatus> status_writer_;
+  Writer<StopAll> stop_writer_;
+  Reader<Heartbeat> heartbeat_reader_;  // last: they call back as soon as they are there
+  Reader<SideStatus> status_reader_;
+  Reader<StopAll> stop_reader_;
+};
+
+}  // namespace telehug
