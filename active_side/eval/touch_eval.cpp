@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "eval/touch_eval.hpp"
+
+#include <fmt/format.h>
+
+#include <cerrno>
+#include <chrono>
+#include <fstream>
+#include <opencv2/core/mat.hpp>
+#include <system_error>
+#include <utility>
+
+#include "capture/rig_directory.hpp"
+#include "common/clock.hpp"
+#include "eval/rig_calibration.hpp"
+#include "finger/thesis_detector.hpp"
+#include "pictures/picture_file.hpp"
+#include "touch/contact_tracker.hpp"
+#include "touch/screen_points.hpp"
+
+namespace telehug {
+namespace {
+
+constexpr Duration frame_interval = std::chrono::nanoseconds{1'000'000'000 / 30};
+
+Status check_choice(const char* option, const std::string& choice) {
+  if (choice == "thesis" || choice == "default") return Done{};
+  return Error{fmt::format("--{} {} is unknown; there are: thesis, default", option, choice)};
+}
+
+// Reads the pictures of a part in order and collects what is found in each.
+class Evaluation {
+ public:
+  explicit Evaluation(EvalTouchReport& report)
+      : report_(report), detector_(report.calibration.border, report.calibration.image) {}
+
+  void run(const RigPart& part) {
+    const bool is_recording = part.name == "sequence";
+    for (std::size_t i = 0; i < part.frames.size(); ++i) {
+      const ScreenPoints points = points_in(part.frames[i]);
+      FoundTouches found{part.frames[i].name, {points.begin(), points.end()}};
+      if (is_recording) {
+        const auto index = static_cast<Duration::rep>(i);
+        const Timestamp time = part.times.empty() ? Timestamp{} + index * frame_interval : part.times[i];
+        found.points = tracked(points, time);
+      }
+      report_.found.push_back(std::move(found));
+    }
+  }
+
+ private:
+  ScreenPoints points_in(const RigFrame& frame) {
+    const auto picture = read_picture(frame.picture);
+    if (!picture) {
+      report_.unreadable.push_back(picture.error().message);
+      return {};
+    }
+    const ImageSize image = report_.calibration.image;
+    if (picture->cols != image.width_px || picture->rows != image.height_px) {
+      report_.unreadable.push_back(fmt::format("{}: {}x{} pixels, but the calibration has {}x{}",
+                                               frame.picture.string(), picture->cols, picture->rows, image.width_px,
+                                               image.height_px));
+      return {};
+    }
+    const auto touched =
+        screen_points(detector_.detect(*picture), report_.calibration.model, report_.calibration.screen, image);
+    report_.dropped += touched.dropped;
+    return touched.points;
+  }
+
+  std::vector<ScreenPoint> tracked(const ScreenPoints& points, Timestamp time) {
+    std::vector<ScreenPoint> places;
+    for (const ContactState& state : tracker_.update(points, time)) {
+      if (state.phase != Phase::up) places.push_back(state.screen);
+    }
+    return places;
+  }
+
+  EvalTouchReport& report_;
+  ThesisDetector detector_;
+  ContactTracker tracker_;
+};
+
+Status write_csv(const std::filesystem::path& path, const std::vector<FoundTouches>& found) {
+  std::ofstream out(path);
+  out << "frame,contact,x_mm,y_mm\n";
+  for (const FoundTouches& frame : found) {
+    if (frame.points.empty()) out << fmt::format("{},0,,\n", frame.frame);
+    for (const ScreenPoint& point : frame.points) {
+      out << fmt::format("{},1,{:.2f},{:.2f}\n", frame.frame, point.x_mm, point.y_mm);
+    }
+  }
+  out.close();
+  if (out) return Done{};
+  return Error{fmt::format("can't write {}: {}", path.string(), std::generic_category().message(errno))};
+}
+
+}  // namespace
+
+Result<EvalTouchReport> eval_touch(const EvalTouchOptions& options) {
+  if (auto known = check_choice("detector", options.detector); !known) return known.error();
+  if (auto known = check_choice("model", options.model); !known) return known.error();
+  const auto rig = open_rig_directory(options.rig);
+  if (!rig) return rig.error();
+  const RigPart* const part = rig->part(options.part);
+  if (part == nullptr) {
+    return Error{
+        fmt::format("{} has no part \"{}\"; there can be: frames, hard, sequence", options.rig.string(), options.part)};
+  }
+  auto calibration = calibrate_from_recording(*rig, options.calibration, "");
+  if (!calibration) return calibration.error();
+
+  EvalTouchReport report{options, "thesis", "thesis", std::move(*calibration), {}, {}, 0, std::nullopt};
+  Evaluation(report).run(*part);
+  if (!part->truth.empty()) report.score = score_touches(report.found, part->truth);
+  if (!options.out.empty()) {
+    if (auto written = write_csv(options.out, report.found); !written) return written.error();
+  }
+  return report;
+}
+
+}  // namespace telehug

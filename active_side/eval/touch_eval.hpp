@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// `telehug-active eval touch`: what a detector and a touch model make of a recording, and how far that is from the
+// truth.
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "calibration/calibration_file.hpp"
+#include "common/result.hpp"
+#include "eval/touch_score.hpp"
+
+namespace telehug {
+
+struct EvalTouchOptions {
+  std::filesystem::path rig;         // a recording, see capture/rig_directory.hpp
+  std::filesystem::path out;         // CSV: frame,contact,x_mm,y_mm; empty: none is written
+  std::string part = "frames";       // frames, hard (each picture alone), sequence (one 30 Hz recording)
+  std::string detector = "default";  // thesis, default: the best there is, at present the thesis'
+  std::string model = "default";     // likewise
+  std::vector<int> calibration;      // numbers of the calibration frames; empty: what the model needs (thesis: 1, 2)
+};
+
+struct EvalTouchReport {
+  EvalTouchOptions options;
+  std::string detector;  // the algorithm that "default" stood for, or the one asked for
+  std::string model;
+  Calibration calibration;
+  std::vector<FoundTouches> found;      // one a frame, in the part's order
+  std::vector<std::string> unreadable;  // pictures that could not be used, and why; they count as without a touch
+  std::size_t dropped = 0;              // fingers whose point lay too far outside the screen
+  std::optional<TouchScore> score;      // if the part has a truth
+};
+
+// The error says which option, file or calibration picture is wrong.
+Result<EvalTouchReport> eval_touch(const EvalTouchOptions& options);
+
+}  // namespace telehug

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <boost/container/static_vector.hpp>
+#include <memory>
+
+#include "common/clock.hpp"
+#include "common/messages.hpp"
+#include "jacket/jacket_profile.hpp"
+#include "jacket/touch_to_drives.hpp"
+#include "safety/safety_stage.hpp"
+#include "service/metrics.hpp"
+#include "subscribe/staleness.hpp"
+#include "subscribe/touch_order.hpp"
+
+namespace telehug {
+
+using FeltAnswers = boost::container::static_vector<Felt, max_contacts + max_transitions>;
+
+// From a touch event to the bytes for the jacket: every stage of the passive side but the two wires. One thread uses it.
+class PassivePipeline {
+ public:
+  // `profile`, `safety`, `clock`, `metrics` outlive it.
+  PassivePipeline(const JacketProfile& profile, SafetyStage& safety, Duration drive_duration, const SessionId& session,
+                  const Clock& clock, MetricsRegistry& metrics);
+
+  // An event came. Returns what to answer the sender: one for each contact that went down or up or is felt differently
+  // than at the event before. Valid until the next call.
+  const FeltAnswers& process(const TouchEvent& event, Timestamp now);
+
+  // A stamp of the sender that carries no touch: keeps the estimate of the way's delay fresh.
+  void observe(const Heartbeat& heartbeat, Timestamp now) {
+    staleness_.observe(heartbeat.session, heartbeat.sent_time_ns, now);
+  }
+
+ private:
+  void answer(const SafetyVerdict& verdict, const TouchEvent& event, Timestamp received);
+  void refuse(FeltOutcome outcome, const OrderedTouch& touch, Timestamp received);
+  [[nodiscard]] bool is_news(const ContactAnswer& answer, FeltOutcome outcome);
+  void tell_counters();
+
+  const JacketProfile& profile_;
+  SafetyStage& safety_;
+  Duration drive_duration_;
+  SessionId session_;
+  const Clock& clock_;
+  TouchOrder order_;
+  Staleness staleness_;
+  JacketPlan plan_;
+  FeltAnswers answers_;
+
+  struct Known {
+    std::uint32_t contact = 0;
+    std::uint16_t box = 0;
+    FeltOutcome outcome = FeltOutcome::driven;
+  };
+  boost::container::static_vector<Known, max_contacts> known_;
+
+  MetricsRegistry& metrics_;
+  LatencyHistogram& order_latency_;
+  LatencyHistogram& plan_latency_;
+  LatencyHistogram& drive_latency_;
+};
+
+}  // namespace telehug
