@@ -26,6 +26,9 @@ class BodyMapStep {
   // One look. A screen that hasn't changed costs no search. Version 0 if there is no map now.
   const BodyMap& run();
 
+  // What the last run returned.
+  [[nodiscard]] const BodyMap& map() const { return tracker_.map(); }
+
   // One sentence for status: why the last run saw no face, even if the map is still held; empty if it saw one.
   [[nodiscard]] const std::string& problem() const { return problem_; }
 

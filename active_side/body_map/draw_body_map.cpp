@@ -32,17 +32,22 @@ void fill(cv::Mat& bgr, const cv::Rect& box) {
   cv::addWeighted(colour, fill_opacity, part, 1 - fill_opacity, 0, part);
 }
 
-// In the middle of the box, as large as fits; the outline keeps it readable on any picture.
-void write_number(cv::Mat& bgr, const cv::Rect& box, int number, const cv::Scalar& colour) {
+// In the middle of the box, as large as fits; the outline keeps it readable on any picture. A row that is cut so low
+// that no number can be read gets none.
+void write_number(cv::Mat& bgr, const cv::Rect& box, int number, const cv::Scalar& colour, const cv::Scalar& outline) {
   constexpr int font = cv::FONT_HERSHEY_SIMPLEX;
   constexpr double px_at_scale_1 = 22;
+  constexpr double least_scale = 0.3;
   const std::string text = std::to_string(number);
   const double scale = std::min(box.width, box.height) / px_at_scale_1 * 0.35;
+  if (scale < least_scale) {
+    return;
+  }
   const int line_px = std::max(1, cvRound(scale * 1.5));
   int baseline = 0;
   const cv::Size size = cv::getTextSize(text, font, scale, line_px, &baseline);
   const cv::Point start(box.x + (box.width - size.width) / 2, box.y + (box.height + size.height) / 2);
-  cv::putText(bgr, text, start, font, scale, black, line_px + 2, cv::LINE_AA);
+  cv::putText(bgr, text, start, font, scale, outline, line_px + 2, cv::LINE_AA);
   cv::putText(bgr, text, start, font, scale, colour, line_px, cv::LINE_AA);
 }
 
@@ -59,7 +64,11 @@ cv::Mat draw_body_map(const cv::Mat& bgr, const BodyMap& map, const ScreenScale&
     if (const auto box = box_rect(map, static_cast<std::uint16_t>(number))) {
       const cv::Rect place = rounded(scale.to_px(*box));
       cv::rectangle(drawn, place, red, line_px);
-      write_number(drawn, place, number, number == touched ? white : red);
+      if (number == touched) {
+        write_number(drawn, place, number, white, black);
+      } else {
+        write_number(drawn, place, number, red, white);
+      }
     }
   }
   cv::rectangle(drawn, rounded(scale.to_px(map.face)), yellow, line_px + 1);

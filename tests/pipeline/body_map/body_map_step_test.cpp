@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "body_map/body_map_step.hpp"
+
+#include <gmock/gmock.h>
+
+#include "body_map/haar_face_finder.hpp"
+#include "body_map/picture_grabber.hpp"
+#include "body_map/vitruvian_grid.hpp"
+#include "doubles/fake_clock.hpp"
+#include "doubles/planned_face_finder.hpp"
+#include "doubles/planned_screen_grabber.hpp"
+
+namespace telehug {
+namespace {
+
+using testing::HasSubstr;
+
+// 0.5 mm a pixel sideways, 0.25 mm a pixel down.
+const BodyMapStepConfig config{
+    .screen = {.width_mm = 400, .height_mm = 200, .width_px = 800, .height_px = 800}, .rules = {}, .tracker = {}};
+
+class BodyMapStepTest : public testing::Test {
+ protected:
+  BodyMapStepTest() {
+    grabber.picture = {.bgr = cv::Mat(600, 700, CV_8UC3, cv::Scalar(0, 0, 0)),
+                       .origin_px = {100, 40},
+                       .desktop = {.width_px = 800, .height_px = 800},
+                       .time = from_ns(1'000'000'000)};
+  }
+  void look(GrabOutcome outcome, Duration later = 125ms) {
+    grabber.outcome = outcome;
+    grabber.picture.time += later;
+    step.run();
+    map = step.map();
+  }
+
+  PlannedScreenGrabber grabber;
+  PlannedFaceFinder finder{{{.box = {300, 100, 80, 160}, .score = 1}}};
+  BodyMapStep step{grabber, finder, config};
+  BodyMap map;
+};
+
+TEST_F(BodyMapStepTest, LaysTheGridInMillimetresOfTheScreen) {
+  look(GrabOutcome::changed);
+  EXPECT_EQ(map.version, 1U);
+  EXPECT_EQ(map.seen, grabber.picture.time);
+  EXPECT_DOUBLE_EQ(map.face.x_mm, (100 + 300) * 0.5);
+  EXPECT_DOUBLE_EQ(map.face.y_mm, (40 + 100) * 0.25);
+  EXPECT_DOUBLE_EQ(map.face.width_mm, 40);
+  EXPECT_DOUBLE_EQ(map.face.height_mm, 40);
+  EXPECT_DOUBLE_EQ(map.box_side_mm, 20);
+  EXPECT_DOUBLE_EQ(map.grid.y_mm, (40 + 260) * 0.25);
+  EXPECT_DOUBLE_EQ(map.grid.y_mm + map.grid.height_mm, (40 + 600) * 0.25) << "the bottom of the looked-at part";
+  EXPECT_EQ(step.problem(), "");
+}
+
+TEST_F(BodyMapStepTest, SearchesAScreenThatStandsStillOnlyOnce) {
+  look(GrabOutcome::changed);
+  look(GrabOutcome::unchanged, 10s);
+  look(GrabOutcome::unchanged, 10s);
+  EXPECT_EQ(finder.searches, 1);
+  EXPECT_EQ(map.version, 1U);
+  EXPECT_EQ(map.seen, grabber.picture.time);
+}
+
+TEST_F(BodyMapStepTest, SaysThatNoFaceIsSeen) {
+  finder.faces = FoundFaces{};
+  look(GrabOutcome::changed);
+  EXPECT_EQ(map.version, 0U);
+  EXPECT_THAT(step.problem(), HasSubstr("No face"));
+}
+
+TEST_F(BodyMapStepTest, SaysThatThereIsNoBodyBelowTheFace) {
+  finder.faces = FoundFaces{{.box = {300, 440, 80, 160}, .score = 1}};
+  look(GrabOutcome::changed);
+  EXPECT_EQ(map.version, 0U);
+  EXPECT_THAT(step.problem(), HasSubstr("nothing of the body"));
+}
+
+TEST_F(BodyMapStepTest, LeavesOutTheOwnPictureInTheCornerOfTheLookedAtPart) {
+  finder.faces = FoundFaces{{.box = {600, 430, 80, 120}, .score = 1}};
+  look(GrabOutcome::changed);
+  EXPECT_EQ(map.version, 0U);
+}
+
+TEST_F(BodyMapStepTest, HoldsTheMapAndThenDropsItWhenTheScreenIsLost) {
+  look(GrabOutcome::changed);
+  look(GrabOutcome::lost, 1s);
+  EXPECT_EQ(map.version, 1U);
+  EXPECT_EQ(step.problem(), "The screen is gone.");
+  look(GrabOutcome::lost, 1s);
+  EXPECT_EQ(map.version, 0U);
+  look(GrabOutcome::changed);
+  EXPECT_EQ(map.version, 2U);
+  EXPECT_EQ(step.problem(), "");
+}
+
+TEST_F(BodyMapStepTest, LivesOnWhenTheFinderFails) {
+  look(GrabOutcome::changed);
+  const Result<FoundFaces> faces = finder.faces;
+  finder.faces = Error{"The finder has failed."};
+  look(GrabOutcome::changed, 2s);
+  EXPECT_EQ(map.version, 0U);
+  EXPECT_EQ(step.problem(), "The finder has failed.");
+  look(GrabOutcome::unchanged);
+  EXPECT_EQ(map.version, 0U);
+  finder.faces = faces;
+  look(GrabOutcome::changed);
+  EXPECT_EQ(map.version, 2U);
+}
+
+TEST_F(BodyMapStepTest, RefusesAScreenWithoutSize) {
+  BodyMapStep unmeasured(grabber, finder, {});
+  EXPECT_EQ(unmeasured.run().version, 0U);
+  EXPECT_THAT(unmeasured.problem(), HasSubstr("mm"));
+}
+
+TEST(FaceOnAChatPicture, GivesTheBoxUnderATouchOnTheChest) {
+  auto finder = make_haar_face_finder();
+  ASSERT_TRUE(finder) << finder.error().message;
+  const FakeClock clock;
+  PictureGrabber grabber(
+      {.path = std::filesystem::path(TELEHUG_FIXTURES) / "chat" / "02_self.jpg", .view = cv::Rect(153, 102, 793, 675)},
+      clock);
+  ASSERT_TRUE(grabber.open());
+  // 0.25 mm a pixel: the labelled face is 57 mm high, its chin at (137, 105) mm, a box 29 mm wide.
+  BodyMapStep step(
+      grabber, **finder,
+      {.screen = {.width_mm = 320, .height_mm = 256, .width_px = 1280, .height_px = 1024}, .rules = {}, .tracker = {}});
+  const BodyMap map = step.run();
+  ASSERT_EQ(map.version, 1U) << step.problem();
+  EXPECT_NEAR(map.face.height_mm, 57, 9);
+  EXPECT_NEAR(map.grid.y_mm + map.grid.height_mm, (102 + 675) * 0.25, 1e-9);
+  const auto hit = box_at(map, {.x_mm = 137, .y_mm = 105 + 1.5 * 28});
+  ASSERT_TRUE(hit);
+  EXPECT_EQ(hit->box, 8) << "second row, middle";
+  EXPECT_NEAR(hit->body.x_fh, 0, 0.12);
+  EXPECT_FALSE(box_at(map, {.x_mm = 10, .y_mm = 200}));
+}
+
+}  // namespace
+}  // namespace telehug

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "body_map/haar_face_finder.hpp"
+
+#include <gmock/gmock.h>
+
+#include "body_map/choose_remote_face.hpp"
+#include "doubles/scratch_folder.hpp"
+#include "eval_face/face_labels.hpp"
+#include "pictures/picture_file.hpp"
+
+namespace telehug {
+namespace {
+
+using testing::HasSubstr;
+
+const std::filesystem::path chat = std::filesystem::path(TELEHUG_FIXTURES) / "chat";
+
+std::unique_ptr<FaceFinder> haar() {
+  auto finder = make_haar_face_finder();
+  EXPECT_TRUE(finder) << finder.error().message;
+  return finder ? std::move(*finder) : nullptr;
+}
+
+TEST(HaarFaceFinder, FindsTheRemoteFaceFromHairlineToChin) {
+  const auto finder = haar();
+  const auto labels = read_face_labels(chat);
+  ASSERT_TRUE(labels) << labels.error().message;
+  ASSERT_TRUE(*labels);
+  for (const auto& [name, label] : **labels) {
+    SCOPED_TRACE(name);
+    const auto picture = read_picture(chat / name);
+    ASSERT_TRUE(picture) << picture.error().message;
+    const auto faces = finder->find(*picture);
+    ASSERT_TRUE(faces) << faces.error().message;
+    const auto face = choose_remote_face(*faces, {.width_px = picture->cols, .height_px = picture->rows});
+    ASSERT_TRUE(face);
+    const cv::Rect2d& truth = label.faces.front().box;
+    EXPECT_NEAR(face->box.height, truth.height, 0.15 * truth.height);
+    EXPECT_NEAR(face->box.x + face->box.width / 2, truth.x + truth.width / 2, 0.12 * truth.height);
+    EXPECT_NEAR(face->box.br().y, truth.br().y, 0.12 * truth.height);
+    EXPECT_GE(face->score, 1);
+  }
+}
+
+TEST(HaarFaceFinder, FindsTheFaceInTheSamePlaceOfACrop) {
+  const auto finder = haar();
+  const auto picture = read_picture(chat / "02_self.jpg");
+  ASSERT_TRUE(picture) << picture.error().message;
+  const cv::Rect view(153, 102, 793, 675);
+  const auto faces = finder->find((*picture)(view));
+  ASSERT_TRUE(faces);
+  const auto face = choose_remote_face(*faces, {.width_px = view.width, .height_px = view.height});
+  ASSERT_TRUE(face);
+  EXPECT_NEAR(face->box.x + face->box.width / 2, 478 + 143 / 2.0 - view.x, 25);
+  EXPECT_NEAR(face->box.br().y, 193 + 229 - view.y, 25);
+}
+
+TEST(HaarFaceFinder, FindsNothingInAnEmptyOrUniformPicture) {
+  const auto finder = haar();
+  for (const cv::Mat& picture :
+       {cv::Mat(), cv::Mat(0, 0, CV_8UC3), cv::Mat(1, 1, CV_8UC3, cv::Scalar(9, 9, 9)),
+        cv::Mat(1, 4000, CV_8UC3, cv::Scalar(9, 9, 9)), cv::Mat(4000, 1, CV_8UC3, cv::Scalar(9, 9, 9)),
+        cv::Mat(480, 640, CV_8UC3, cv::Scalar(90, 120, 90))}) {
+    const auto faces = finder->find(picture);
+    ASSERT_TRUE(faces) << faces.error().message;
+    EXPECT_TRUE(faces->empty());
+  }
+}
+
+TEST(HaarFaceFinder, RefusesAPictureThatIsNotBgr) {
+  const auto faces = haar()->find(cv::Mat(480, 640, CV_8UC1, cv::Scalar(90)));
+  ASSERT_FALSE(faces);
+  EXPECT_THAT(faces.error().message, HasSubstr("BGR"));
+}
+
+TEST(HaarFaceFinder, NamesThePathsTriedAndThePackageWhereTheCascadeIsMissing) {
+  const ScratchFolder folder;
+  const auto finder = make_haar_face_finder({folder / "one.xml", folder / "two.xml"});
+  ASSERT_FALSE(finder);
+  EXPECT_THAT(finder.error().message, HasSubstr((folder / "one.xml").string()));
+  EXPECT_THAT(finder.error().message, HasSubstr((folder / "two.xml").string()));
+  EXPECT_THAT(finder.error().message, HasSubstr("opencv-data"));
+}
+
+TEST(HaarFaceFinder, RefusesAFileThatIsNoCascade) {
+  const ScratchFolder folder;
+  for (const auto* content : {"", "not xml", "<?xml version=\"1.0\"?>\n<opencv_storage>\n</opencv_storage>\n"}) {
+    const auto file = folder.write("cascade.xml", content);
+    const auto finder = make_haar_face_finder({file});
+    ASSERT_FALSE(finder);
+    EXPECT_THAT(finder.error().message, HasSubstr("is not a face cascade"));
+  }
+}
+
+TEST(HaarFaceFinder, TakesTheFirstPathThatExists) {
+  const ScratchFolder folder;
+  std::vector<std::filesystem::path> paths{folder / "absent.xml"};
+  for (const auto& known : known_haar_cascades()) {
+    paths.push_back(known);
+  }
+  EXPECT_TRUE(make_haar_face_finder(paths));
+}
+
+}  // namespace
+}  // namespace telehug
