@@ -40,7 +40,8 @@ DdsParticipant::Impl::Impl(const DdsSettings& settings) : side(settings.side) {
     throw std::invalid_argument(
         fmt::format("the DDS partition \"{}\" is empty or holds a wildcard: choose a plain name", settings.partition));
   }
-  const dds::DomainParticipantQos qos = participant_qos(settings);
+  dds::DomainParticipantQos qos = participant_qos(settings);
+  qos.wire_protocol().participant_id = number.value();
   deliver_through_the_transport_only();
   participant = dds::DomainParticipantFactory::get_instance()->create_participant(settings.domain_id, qos, nullptr,
                                                                                   dds::StatusMask::none());

@@ -9,6 +9,7 @@
 
 #include "dds/guarded_type.hpp"
 #include "dds/participant.hpp"
+#include "dds/participant_number.hpp"
 
 namespace telehug {
 
@@ -24,6 +25,7 @@ struct DdsParticipant::Impl {
     return find_or_create(topic_name<T>(writing_side), eprosima::fastdds::dds::TypeSupport(new GuardedType<T>()));
   }
 
+  ParticipantNumber number;  // before the participant: given back after it
   Side side;
   eprosima::fastdds::dds::DomainParticipant* participant = nullptr;
   eprosima::fastdds::dds::Publisher* publisher = nullptr;

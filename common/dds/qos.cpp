@@ -8,6 +8,8 @@
 
 #include <stdexcept>
 
+#include "dds/participant_number.hpp"
+
 namespace telehug {
 
 namespace dds = eprosima::fastdds::dds;
@@ -17,8 +19,6 @@ using eprosima::fastrtps::Duration_t;
 namespace {
 
 constexpr const char* loopback_address = "127.0.0.1";
-// Programs of one host that find each other on loopback without multicast (discovery tries that many ports).
-constexpr std::uint32_t max_loopback_participants = 10;
 constexpr int felt_history = 64;
 // A restarted sender leaves its session behind as an instance until the lease ends; the default of 10 would refuse the
 // eleventh restart.
@@ -70,6 +70,8 @@ template <>
 void choose_delivery<TouchEvent>(dds::DataReaderQos& qos) {
   best_effort_newest(qos);
   qos.resource_limits().max_instances = max_sessions;
+  qos.resource_limits().max_samples_per_instance = 1;
+  qos.resource_limits().max_samples = max_sessions;
 }
 template <>
 void choose_delivery<Heartbeat>(dds::DataWriterQos& qos) {

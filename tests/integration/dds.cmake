@@ -1,0 +1,9 @@
+# SPDX-License-Identifier: Apache-2.0
+telehug_test(test_dds_loopback KIND integration SUBJECT link
+  SOURCES integration/dds/loopback_test.cpp
+  DEPS telehug_dds telehug_peer)
+
+telehug_test(test_dds_hostile_peer KIND integration SUBJECT link
+  SOURCES integration/dds/hostile_peer_test.cpp
+  DEPS telehug_dds telehug_idl
+  USES_FASTDDS)
