@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The subcommands of `telehug`, one a file. Each adds itself to the command line and, when it is the one that was
+// asked for, leaves how it ended in `result`.
+#pragma once
+
+#include "service/exit_code.hpp"
+
+namespace CLI {
+class App;
+}
+
+namespace telehug {
+
+void add_status(CLI::App& app, ExitCode& result);
+void add_watch(CLI::App& app, ExitCode& result);
+void add_stop(CLI::App& app, ExitCode& result);
+void add_resume(CLI::App& app, ExitCode& result);
+void add_version(CLI::App& app, ExitCode& result);
+
+}  // namespace telehug

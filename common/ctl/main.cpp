@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <exception>
+
+#include "ctl/command.hpp"
+
+namespace {
+
+constexpr const char* examples = R"(
+Examples:
+  telehug status                      how the daemons on this PC are
+  telehug status --json | jq .        the same for programs
+  telehug status --check --side active && echo ready
+  telehug watch                       touches and answers as they happen
+  telehug stop --reason "dinner"      everything off, on both PCs
+  telehug resume
+
+Exit codes: 0 ok, 1 fault of telehug, 2 wrong command line, 5 no daemon is running, 6 peer absent (--check),
+  7 not allowed to use the socket, 8 the daemon does not answer properly, 9 the daemon refused, 11 stopped (--check),
+  12 a side can't work (--check).)";
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  using telehug::ExitCode;
+  ExitCode result = ExitCode::ok;
+  CLI::App app("Looks after the telehug daemons on this PC, through their local sockets; needs no network.", "telehug");
+  app.footer(examples);
+  app.require_subcommand(1);
+  telehug::add_status(app, result);
+  telehug::add_watch(app, result);
+  telehug::add_stop(app, result);
+  telehug::add_resume(app, result);
+  telehug::add_version(app, result);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& problem) {
+    // --help comes this way, too, with code 0.
+    result = app.exit(problem) == 0 ? ExitCode::ok : ExitCode::usage;
+  } catch (const std::exception& problem) {
+    (void)std::fprintf(stderr, "telehug: %s\n", problem.what());
+    result = ExitCode::internal;
+  }
+  return telehug::to_int(result);
+}

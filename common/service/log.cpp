@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "service/log.hpp"
+
+#include <spdlog/pattern_formatter.h>
+#include <spdlog/sinks/stdout_color_sinks.h>
+#include <spdlog/sinks/stdout_sinks.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <memory>
+
+namespace telehug {
+namespace {
+
+// The priorities of sd-daemon(3).
+char journal_priority(spdlog::level::level_enum level) {
+  switch (level) {
+    case spdlog::level::critical:
+      return '2';
+    case spdlog::level::err:
+      return '3';
+    case spdlog::level::warn:
+      return '4';
+    case spdlog::level::info:
+      return '6';
+    default:
+      return '7';
+  }
+}
+
+class PriorityFlag final : public spdlog::custom_flag_formatter {
+ public:
+  void format(const spdlog::details::log_msg& message, const std::tm&, spdlog::memory_buf_t& out) override {
+    out.push_back('<');
+    out.push_back(journal_priority(message.level));
+    out.push_back('>');
+  }
+  [[nodiscard]] std::unique_ptr<custom_flag_formatter> clone() const override {
+    return std::make_unique<PriorityFlag>();
+  }
+};
+
+// systemd.exec(5): $JOURNAL_STREAM holds "device:inode" of the stream to the journal. A shell started from a unit
+// inherits it, so it must be compared with what stderr really is.
+bool stderr_is_the_journal() {
+  const char* text = std::getenv("JOURNAL_STREAM");
+  struct stat status {};
+  if (text == nullptr || fstat(STDERR_FILENO, &status) != 0) return false;
+  return std::string_view(text) == std::to_string(status.st_dev) + ":" + std::to_string(status.st_ino);
+}
+
+LogStyle style_of_stderr() {
+  if (stderr_is_the_journal()) return LogStyle::journal;
+  return isatty(STDERR_FILENO) == 1 ? LogStyle::terminal : LogStyle::plain;
+}
+
+}  // namespace
+
+void set_up_log(std::string_view level, LogStyle style) {
+  if (style == LogStyle::automatic) style = style_of_stderr();
+  std::shared_ptr<spdlog::sinks::sink> sink;
+  auto formatter = std::make_unique<spdlog::pattern_formatter>();
+  if (style == LogStyle::terminal) {
+    sink = std::make_shared<spdlog::sinks::stderr_color_sink_mt>();
+    formatter->set_pattern("%H:%M:%S.%e %^%-7l%$ %v");
+  } else {
+    sink = std::make_shared<spdlog::sinks::stderr_sink_mt>();
+    if (style == LogStyle::journal) {
+      formatter->add_flag<PriorityFlag>('*').set_pattern("%*%v");
+    } else {
+      formatter->set_pattern("%Y-%m-%dT%H:%M:%S.%e%z %-7l %v");
+    }
+  }
+  sink->set_formatter(std::move(formatter));
+  auto logger = std::make_shared<spdlog::logger>("telehug", std::move(sink));
+  const auto known = spdlog::level::from_str(std::string(level));
+  // from_str() gives "off" for what it does not know.
+  logger->set_level(known == spdlog::level::off ? spdlog::level::info : known);
+  logger->flush_on(spdlog::level::trace);
+  spdlog::set_default_logger(std::move(logger));
+}
+
+void SayOnChange::say(spdlog::level::level_enum level, std::string_view text) {
+  if (text == last_) return;
+  last_ = text;
+  spdlog::log(level, "{}", text);
+}
+
+}  // namespace telehug

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// What a daemon tells systemd of itself (sd_notify(3)). Without systemd every call does nothing.
+#pragma once
+
+#include <optional>
+#include <string_view>
+
+#include "common/clock.hpp"
+
+namespace telehug {
+
+class Notifier {
+ public:
+  // Reads how often systemd wants to hear from this process ($WATCHDOG_USEC).
+  Notifier();
+
+  void ready() const;
+  void status(std::string_view sentence) const;  // shown by `systemctl status`
+  void stopping() const;
+
+  // Call it whenever the pipeline has made a round, as often as you like; systemd is told at half its interval. Not
+  // from a timer of its own: then a stuck pipeline would look alive.
+  void alive(Timestamp now);
+
+  [[nodiscard]] std::optional<Duration> watchdog_interval() const noexcept { return watchdog_; }
+
+ private:
+  std::optional<Duration> watchdog_;
+  Timestamp last_told_{};
+};
+
+}  // namespace telehug

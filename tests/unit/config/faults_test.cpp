@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gmock/gmock.h>
+
+#include "config/load.hpp"
+#include "doubles/temporary_folder.hpp"
+
+namespace telehug {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+
+class ConfigFaults : public testing::Test {
+ protected:
+  std::string active_faults(const std::string& content) {
+    ConfigSources sources;
+    sources.only_file = folder_.write("c.toml", content);
+    const auto config = load_active_config(sources);
+    return config ? "" : config.error().message;
+  }
+  TemporaryFolder folder_;
+};
+
+TEST_F(ConfigFaults, AreAllToldAtOnceWithTheirLines) {
+  const std::string text = active_faults(
+      "[camera]\n"
+      "fps = 500\n"
+      "width_px = \"wide\"\n"
+      "colour = true\n"
+      "source = \"tape\"\n"
+      "\n"
+      "[kitchen]\n"
+      "sink = 1\n"
+      "[touch]\n"
+      "detector = \"best\"\n"
+      "[rig]\n"
+      "screen_width_mm = 520\n");
+  EXPECT_THAT(text, HasSubstr("c.toml:2: camera.fps is 500; it must be within 1 .. 240 frames/s"));
+  EXPECT_THAT(text, HasSubstr("c.toml:3: camera.width_px must be a whole number"));
+  EXPECT_THAT(text, HasSubstr("c.toml:4: there is no key camera.colour"));
+  EXPECT_THAT(text, HasSubstr("c.toml:5: camera.source: \"tape\" is not a camera source"));
+  EXPECT_THAT(text, HasSubstr("c.toml:7: there is no section [kitchen]"));
+  EXPECT_THAT(text, HasSubstr("c.toml:10: touch.detector is \"best\"; it must be one of default | thesis"));
+  EXPECT_THAT(text, HasSubstr("c.toml:12: rig.screen_width_mm and rig.screen_height_mm must both be given"));
+  EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 6);
+}
+
+TEST_F(ConfigFaults, OfSyntaxDoNotHideTheOthers) {
+  const std::string text = active_faults(
+      "[camera]\n"
+      "fps = = 30\n"
+      "width_px = 1280 px\n"
+      "height_px = 1\n");
+  EXPECT_THAT(text, HasSubstr("c.toml:2: not valid TOML"));
+  EXPECT_THAT(text, HasSubstr("c.toml:3: not valid TOML"));
+  EXPECT_THAT(text, HasSubstr("c.toml:4: camera.height_px is 1"));
+}
+
+TEST_F(ConfigFaults, OfSyntaxInASectionsHeadDoNotPutItsKeysIntoAnother) {
+  const std::string text = active_faults("[camera]\nfps = 30\n[touch\ndetector = \"thesis\"\n");
+  EXPECT_THAT(text, HasSubstr("c.toml:3: not valid TOML"));
+  EXPECT_THAT(text, Not(HasSubstr("camera.detector")));
+}
+
+TEST_F(ConfigFaults, IncludeAKeyThatIsGivenTwice) {
+  EXPECT_THAT(active_faults("[camera]\nfps = 30\nfps = 60\n"), HasSubstr("c.toml:3: not valid TOML"));
+}
+
+TEST_F(ConfigFaults, IncludeASectionThatIsWrittenAsAKey) {
+  EXPECT_THAT(active_faults("camera = 5\n"), HasSubstr("c.toml:1: camera is a section"));
+}
+
+TEST_F(ConfigFaults, IncludeNumbersThatAreNone) {
+  EXPECT_THAT(active_faults("[body_map]\nrate_hz = nan\n"), HasSubstr("c.toml:2: body_map.rate_hz is nan"));
+  EXPECT_THAT(active_faults("[camera]\nfps = 9223372036854775807\n"), HasSubstr("c.toml:2: camera.fps is 9.2"));
+}
+
+TEST_F(ConfigFaults, IncludeAPartitionThatMatchesOtherPairs) {
+  EXPECT_THAT(active_faults("[peer]\npartition = \"*\"\n"), HasSubstr("c.toml:2: peer.partition: a partition has"));
+}
+
+TEST_F(ConfigFaults, IncludeAHeldFaceThatWouldBeRefused) {
+  EXPECT_THAT(active_faults("[body_map]\nhold_ms = 4000\n"),
+              HasSubstr("c.toml:2: body_map.hold_ms (4000) must not exceed body_map.max_age_ms (3000)"));
+}
+
+TEST_F(ConfigFaults, OfFilesAndFlagsComeTogether) {
+  ConfigSources sources;
+  sources.only_file = folder_.write("p.toml", "[jacket]\nbaud = 12345\nlink = \"serial:\"\n");
+  sources.overrides = {"safety.drive_ms=251", "safety.drive_ms", "safety.sofa=1", "peer.loopback_only=maybe"};
+  const auto config = load_passive_config(sources);
+  ASSERT_FALSE(config);
+  const std::string& text = config.error().message;
+  EXPECT_THAT(text, HasSubstr("p.toml:2: jacket.baud is 12345"));
+  EXPECT_THAT(text, HasSubstr("p.toml:3: jacket.link: \"serial:\" is not a jacket link"));
+  EXPECT_THAT(text, HasSubstr("--set safety.drive_ms=251: safety.drive_ms is 251; it must be within 50 .. 250 ms"));
+  EXPECT_THAT(text, HasSubstr("--set safety.drive_ms: must have the form SECTION.KEY=VALUE"));
+  EXPECT_THAT(text, HasSubstr("--set safety.sofa=1: there is no key safety.sofa"));
+  EXPECT_THAT(text, HasSubstr("--set peer.loopback_only=maybe: peer.loopback_only must be true or false"));
+}
+
+TEST_F(ConfigFaults, IncludeAFileThatIsMissingOrAFolder) {
+  ConfigSources sources;
+  sources.only_file = folder_.path() / "nowhere.toml";
+  const auto missing = load_active_config(sources);
+  ASSERT_FALSE(missing);
+  EXPECT_THAT(missing.error().message, HasSubstr("nowhere.toml: can't be read: No such file"));
+
+  sources.only_file = folder_.path();
+  const auto folder = load_active_config(sources);
+  ASSERT_FALSE(folder);
+  EXPECT_THAT(folder.error().message, HasSubstr("can't be read: Is a directory"));
+}
+
+TEST_F(ConfigFaults, IncludeAFileThatIsMuchTooLarge) {
+  EXPECT_THAT(active_faults(std::string(2 << 20, '#')), HasSubstr("larger than 1 MiB"));
+}
+
+}  // namespace
+}  // namespace telehug

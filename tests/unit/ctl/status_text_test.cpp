@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ctl/status_text.hpp"
+
+#include <gmock/gmock.h>
+
+#include <random>
+
+namespace telehug {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+using Json = nlohmann::json;
+
+TEST(StatusText, SaysWhatIsWrongAndWhatToDo) {
+  const std::string text = status_text({{"side", "active"},
+                                        {"state", "waiting"},
+                                        {"version", "0.1.0"},
+                                        {"uptime_s", 7260},
+                                        {"problems", {{{"what", "no camera"}, {"do", "plug one in"}}}}});
+  EXPECT_EQ(text,
+            "active side: waiting (0.1.0, up 2 h 1 min)\n"
+            "  problem      no camera\n"
+            "               -> plug one in\n");
+}
+
+TEST(StatusText, ShowsPeerCameraCountersAndLatencies) {
+  const std::string text = status_text(
+      {{"side", "active"},
+       {"peer", {{"connected", true}, {"round_trip_ms", 1.5}, {"stopped", true}, {"reason", "bed time"}}},
+       {"camera", {{"name", "C920"}, {"open", false}, {"why", "no peer"}}},
+       {"counters", {{"touches", 12}}},
+       {"latency_ms", {{"finger", {{"p50", 1.25}, {"p99", 2.5}, {"max", 3.0}, {"count", 100}}}}}});
+  EXPECT_THAT(text, HasSubstr("peer         connected, stopped: bed time, round trip 1.5 ms\n"));
+  EXPECT_THAT(text, HasSubstr("camera       C920, closed: no peer\n"));
+  EXPECT_THAT(text, testing::ContainsRegex("touches +12\n"));
+  EXPECT_THAT(text, testing::ContainsRegex("finger +1.250 +2.500 +3.000 +100\n"));
+}
+
+TEST(StatusText, ShowsPartsItDoesNotKnow) {
+  const std::string text = status_text({{"heater", {{"name", "left"}, {"celsius", 31}}}, {"mood", "calm"}});
+  EXPECT_THAT(text, HasSubstr("heater       left, celsius 31\n"));
+  EXPECT_THAT(text, HasSubstr("mood         calm\n"));
+}
+
+TEST(StatusText, LetsNoControlCharacterThrough) {
+  const std::string text = status_text({{"peer", {{"connected", false}, {"reason", "\x1b]0;x\x07\n"}}}});
+  EXPECT_THAT(text, Not(HasSubstr("\x1b")));
+  EXPECT_THAT(text, HasSubstr("not connected: ?]0;x??"));
+}
+
+TEST(StatusText, BearsPartsOfAnyType) {
+  const std::vector<Json> values{nullptr, true, -3, 1e300, "text", Json::array({1, "a", nullptr}), Json::object(),
+                                 Json{{"connected", "perhaps"}, {"open", 3}, {"p50", {1}}}};
+  const std::vector<std::string> names{"side",   "state",  "version", "uptime_s", "problems",   "peer",
+                                       "camera", "jacket", "counters", "latency_ms", "last_touch"};
+  std::mt19937 random(3);
+  for (int round = 0; round < 2000; ++round) {
+    Json status = Json::object();
+    for (const auto& name : names) status[name] = values[random() % values.size()];
+    EXPECT_FALSE(status_text(status).empty());
+  }
+  for (const Json& value : values) EXPECT_FALSE(status_text(value).empty());
+}
+
+}  // namespace
+}  // namespace telehug

@@ -1,0 +1,14 @@
+# SPDX-License-Identifier: Apache-2.0
+telehug_test(test_config KIND unit SUBJECT ops
+  SOURCES unit/config/faults_test.cpp unit/config/layers_test.cpp unit/config/locator_test.cpp
+          unit/config/random_bytes_test.cpp unit/config/shipped_file_test.cpp
+  DEPS telehug_config)
+
+telehug_test(test_service KIND unit SUBJECT ops
+  SOURCES unit/service/log_test.cpp unit/service/metrics_test.cpp unit/service/notifier_test.cpp
+          unit/service/signals_test.cpp
+  DEPS telehug_service)
+
+telehug_test(test_ctl KIND unit SUBJECT ops
+  SOURCES unit/ctl/status_text_test.cpp unit/ctl/watch_text_test.cpp
+  DEPS telehug_ctl)
