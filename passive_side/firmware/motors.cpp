@@ -21,10 +21,14 @@ namespace {
 constexpr uint8_t slices = 5;
 constexpr uint8_t unit_counts = 8;
 constexpr uint8_t full_level = 31;
+constexpr uint8_t preparing_slice = 2;  // the last one that is long enough (128 us) for the work
 
-// The main loop fills the one buffer while the interrupt shows the other; they change places at the start of a period.
-PortImage buffers[2][slices];
+// One buffer is shown, one may wait for the next period, the main loop draws into the third.
+constexpr uint8_t buffer_count = 3;
+PortImage buffers[buffer_count][slices];
 volatile uint8_t shown = 0;
+volatile uint8_t next = 0;
+volatile uint8_t committed = 0;
 volatile bool change_committed = false;
 
 uint8_t level[protocol::motor_count];
@@ -32,7 +36,9 @@ volatile uint8_t periods_left[protocol::motor_count];  // as shown
 uint8_t new_periods_left[protocol::motor_count];       // taken over with the buffer
 volatile bool changed[protocol::motor_count];
 
-PortImage live = {0, 0, 0};  // pins whose drive has not ended; only the interrupt (or code that keeps it out) writes it
+// Pins whose drive has not ended, in this period and in the next.
+PortImage live = {0, 0, 0};
+PortImage next_live = {0, 0, 0};
 volatile bool is_armed = false;
 volatile uint16_t silent_periods = 0;
 uint8_t slice = 0;
@@ -52,11 +58,12 @@ void clear_all() {
   }
   change_committed = false;
   live = {0, 0, 0};
+  next_live = live;
   board::write_ports(live, is_armed);
 }
 
 inline void take_over_change() {
-  shown = shown ^ 1;
+  next = committed;
   for (uint8_t channel = 0; channel < protocol::motor_count; ++channel) {
     if (!changed[channel]) continue;
     changed[channel] = false;
@@ -65,7 +72,7 @@ inline void take_over_change() {
   change_committed = false;
 }
 
-inline void start_period() {
+inline void prepare_next_period() {
   if (is_armed) {
     silent_periods = silent_periods + 1;
     if (silent_periods >= protocol::keepalive_ms) {
@@ -74,7 +81,7 @@ inline void start_period() {
     }
   }
   if (change_committed) take_over_change();
-  live = board::image_of([](uint8_t channel) {
+  next_live = board::image_of([](uint8_t channel) {
     const uint8_t left = periods_left[channel];
     if (left == 0) return false;
     periods_left[channel] = left - 1;
@@ -87,14 +94,18 @@ inline void start_period() {
 ISR(TIMER2_COMPA_vect) {
   const uint8_t now = slice;
   slice = now == slices - 1 ? 0 : now + 1;
-  // The timer restarts from 0 by itself (CTC); this is the length of the slice that has just begun. The long slice
-  // comes first, because its interrupt does most.
+  // The timer restarts from 0 by itself (CTC); this is the length of the slice that has just begun.
   OCR2A = (unit_counts << (slices - 1 - now)) - 1;
-  if (now == 0) start_period();
+  if (now == 0) {
+    shown = next;
+    live = next_live;
+  }
+  // The same short way to the pins in every slice: a longer one in some would shift strength between slices.
   const PortImage& image = buffers[shown][now];
   board::write_ports({static_cast<uint8_t>(image.b & live.b), static_cast<uint8_t>(image.c & live.c),
                       static_cast<uint8_t>(image.d & live.d)},
                      is_armed);
+  if (now == preparing_slice) prepare_next_period();
 }
 
 namespace motors {
@@ -140,12 +151,16 @@ void set(uint8_t channel, uint8_t intensity, uint16_t duration_ms) {
 }
 
 void commit_change() {
-  PortImage* hidden = buffers[shown ^ 1];
+  uint8_t drawn = 0;
+  ATOMIC_BLOCK(ATOMIC_RESTORESTATE) {
+    while (drawn == shown || drawn == next) ++drawn;
+  }
   for (uint8_t i = 0; i < slices; ++i) {
     const uint8_t bit = 1 << (slices - 1 - i);
-    hidden[i] = board::image_of([bit](uint8_t channel) { return (level[channel] & bit) != 0; });
+    buffers[drawn][i] = board::image_of([bit](uint8_t channel) { return (level[channel] & bit) != 0; });
   }
   ATOMIC_BLOCK(ATOMIC_RESTORESTATE) {
+    committed = drawn;
     change_committed = is_armed;
   }
 }
