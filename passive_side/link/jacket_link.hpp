@@ -22,9 +22,9 @@ enum class LinkState { absent, connecting, armed };
 
 struct LinkStatus {
   LinkState state = LinkState::absent;
-  std::string device;             // path or name of what it talks to
-  std::string problem;            // one sentence; empty when armed
-  int firmware_version = 0;       // 0: unknown
+  std::string device;        // path or name of what it talks to
+  std::string problem;       // one sentence; empty when armed
+  int firmware_version = 0;  // 0: unknown
   int motor_count = 0;
   std::uint64_t reconnects = 0;
   std::uint64_t frames_sent = 0;

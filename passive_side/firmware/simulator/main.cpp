@@ -1,0 +1,193 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// telehug-jacket-sim: the jacket's real firmware, run in real time in a simulated ATmega328P behind a pseudo terminal.
+#include <fmt/core.h>
+#include <poll.h>
+#include <sys/signalfd.h>
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <csignal>
+#include <cstdio>
+#include <memory>
+
+#include "common/clock.hpp"
+#include "simulator/pin_activity.hpp"
+#include "simulator/pty_bridge.hpp"
+#include "simulator/simulated_jacket.hpp"
+
+namespace telehug {
+namespace {
+
+struct Options {
+  std::string firmware;
+  std::string link;
+  std::string pins;
+  std::string edges;
+  bool die_with_parent = false;
+};
+
+using File = std::unique_ptr<std::FILE, int (*)(std::FILE*)>;
+
+File open_log(const std::string& path) {
+  if (path.empty()) return {nullptr, &std::fclose};
+  File file{std::fopen(path.c_str(), "we"), &std::fclose};
+  if (!file) throw std::runtime_error("can't write " + path + ": choose a place that this user may write to");
+  return file;
+}
+
+std::filesystem::path default_firmware() {
+  std::error_code ignored;
+  const auto program = std::filesystem::read_symlink("/proc/self/exe", ignored);
+  const auto built = program.parent_path().parent_path() / "firmware" / "telehug-jacket.elf";
+  if (std::filesystem::exists(built, ignored)) return built;
+  return TELEHUG_INSTALLED_FIRMWARE;
+}
+
+// SIGTERM and SIGINT end the program, SIGUSR1 cuts the firmware's input or joins it again.
+int open_signals() {
+  sigset_t signals;
+  sigemptyset(&signals);
+  for (const int signal : {SIGTERM, SIGINT, SIGUSR1})
+    sigaddset(&signals, signal);
+  sigprocmask(SIG_BLOCK, &signals, nullptr);
+  const int fd = signalfd(-1, &signals, SFD_CLOEXEC | SFD_NONBLOCK);
+  if (fd < 0) throw std::runtime_error("can't receive signals");
+  return fd;
+}
+
+std::int64_t now_ns() {
+  return to_ns(SteadyClock{}.now());
+}
+
+class Simulator {
+ public:
+  explicit Simulator(const Options& options)
+      : options_(options),
+        signals_(open_signals()),
+        pins_(open_log(options.pins)),
+        edges_(open_log(options.edges)),
+        jacket_(options.firmware.empty() ? default_firmware() : std::filesystem::path(options.firmware)),
+        pty_(options.link),
+        activity_([this](const ActivityChange& change) { log(change); }) {
+    jacket_.on_edge([this](const PinEdge& edge) { on_edge(edge); });
+  }
+  ~Simulator() { close(signals_); }
+  Simulator(const Simulator&) = delete;
+  Simulator& operator=(const Simulator&) = delete;
+
+  void run() {
+    // Listens before it says that it is ready.
+    jacket_.run_ms(5);
+    say("ready {}\n", options_.link.empty() ? pty_.path() : options_.link);
+    auto epoch = SteadyClock{}.now();
+    auto epoch_cycle = jacket_.cycle();
+    while (!ended_) {
+      const auto simulated = epoch + cycles(jacket_.cycle() - epoch_cycle);
+      wait_for_input(simulated - SteadyClock{}.now());
+      handle_signals();
+      // The line to the jacket takes what it can carry in a while; the rest waits in the terminal, as at a real port.
+      if (jacket_.bytes_in_flight() < line_bytes_max) jacket_.write(pty_.read());
+      const auto behind = SteadyClock{}.now() - (epoch + cycles(jacket_.cycle() - epoch_cycle));
+      if (behind > lag_max) {
+        epoch = SteadyClock{}.now();
+        epoch_cycle = jacket_.cycle();
+      }
+      if (behind > Duration::zero()) jacket_.run_cycles(slice_cycles);
+      activity_.advance(jacket_.cycle());
+      pty_.write(jacket_.take_output());
+    }
+    activity_.end_all(jacket_.cycle(), now_ns());
+  }
+
+ private:
+  static constexpr std::uint64_t slice_cycles = jacket_cycles_per_ms;
+  static constexpr std::size_t line_bytes_max = 64;
+  static constexpr Duration lag_max = 20ms;  // lost time beyond this is dropped, not caught up with
+  static constexpr std::uint64_t ns_per_cycle_x2 = 125;
+
+  static Duration cycles(std::uint64_t count) {
+    return std::chrono::nanoseconds(static_cast<std::int64_t>(count * ns_per_cycle_x2 / 2));
+  }
+
+  template <typename... Arguments>
+  static void say(fmt::format_string<Arguments...> format, Arguments&&... arguments) {
+    fmt::print(format, std::forward<Arguments>(arguments)...);
+    std::fflush(stdout);
+  }
+
+  void wait_for_input(Duration time) const {
+    const bool takes_bytes = jacket_.bytes_in_flight() < line_bytes_max;
+    std::array<pollfd, 2> fds{{{signals_, POLLIN, 0}, {takes_bytes ? pty_.fd() : -1, POLLIN, 0}}};
+    const auto ns = std::max<std::int64_t>(std::chrono::nanoseconds(time).count(), 0);
+    const timespec timeout{ns / 1'000'000'000, ns % 1'000'000'000};
+    ppoll(fds.data(), fds.size(), &timeout, nullptr);
+  }
+
+  void handle_signals() {
+    signalfd_siginfo signal{};
+    while (::read(signals_, &signal, sizeof signal) == sizeof signal) {
+      if (signal.ssi_signo != SIGUSR1) {
+        ended_ = true;
+        continue;
+      }
+      muted_ = !muted_;
+      jacket_.mute_input(muted_);
+      say("{} {}\n", muted_ ? "muted" : "unmuted", now_ns());
+    }
+    if (options_.die_with_parent && getppid() != parent_) ended_ = true;
+  }
+
+  void on_edge(const PinEdge& edge) {
+    const auto time_ns = now_ns();
+    if (edges_) {
+      fmt::print(edges_.get(), "{},{},{},{}\n", time_ns, edge.cycle, edge.channel, edge.high ? "high" : "low");
+    }
+    activity_.on_edge(edge, time_ns);
+  }
+
+  void log(const ActivityChange& change) {
+    if (!pins_) return;
+    fmt::print(pins_.get(), "{},{},{},{}\n", change.monotonic_ns, change.cycle, change.channel,
+               change.on ? "on" : "off");
+    std::fflush(pins_.get());
+  }
+
+  Options options_;
+  pid_t parent_ = getppid();
+  int signals_;
+  File pins_;
+  File edges_;
+  SimulatedJacket jacket_;
+  PtyBridge pty_;
+  PinActivity activity_;
+  bool muted_ = false;
+  bool ended_ = false;
+};
+
+}  // namespace
+}  // namespace telehug
+
+int main(int argc, char** argv) {
+  telehug::Options options;
+  CLI::App app{
+      "The telehug jacket without a jacket: its firmware, simulated, behind a pseudo terminal.\n"
+      "SIGUSR1 cuts the firmware's input, and joins it again."};
+  app.add_option("--firmware", options.firmware,
+                 "ELF file of the firmware (default: the one built or installed with this)");
+  app.add_option("--link", options.link, "make this path a symbolic link to the terminal");
+  app.add_option("--pins", options.pins,
+                 "write here: monotonic_ns,cycle,channel,on|off for each motor that starts or ends");
+  app.add_option("--edges", options.edges,
+                 "write here: monotonic_ns,cycle,channel,high|low for each edge of a motor's pin");
+  app.add_flag("--die-with-parent", options.die_with_parent, "end when the program that started this one has ended");
+  CLI11_PARSE(app, argc, argv);
+  try {
+    telehug::Simulator(options).run();
+    return 0;
+  } catch (const std::exception& problem) {
+    fmt::print(stderr, "telehug-jacket-sim: {}\n", problem.what());
+    return 1;
+  }
+}
