@@ -94,8 +94,12 @@ TEST(Duemilanove16, places_every_motor_in_a_box_that_it_serves_and_on_the_side_t
              std::abs(actuator.place.y_fh - middle_of(box).y_fh) <= 0.25;
     });
     EXPECT_TRUE(inside) << actuator.name;
-    if (actuator.name.starts_with("right")) EXPECT_LT(actuator.place.x_fh, 0) << actuator.name;
-    if (actuator.name.starts_with("left")) EXPECT_GT(actuator.place.x_fh, 0) << actuator.name;
+    if (actuator.name.starts_with("right")) {
+      EXPECT_LT(actuator.place.x_fh, 0) << actuator.name;
+    }
+    if (actuator.name.starts_with("left")) {
+      EXPECT_GT(actuator.place.x_fh, 0) << actuator.name;
+    }
   }
 }
 

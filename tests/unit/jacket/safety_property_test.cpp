@@ -155,7 +155,9 @@ class HauntedJacket {
 
   void apply() {
     const SafetyVerdict verdict = safety_.apply(adversary_.drives(now_), now_);
-    if (safety_.stopped()) EXPECT_EQ(verdict.outcome, FeltOutcome::stopped);
+    if (safety_.stopped()) {
+      EXPECT_EQ(verdict.outcome, FeltOutcome::stopped);
+    }
   }
 
   void check() {
