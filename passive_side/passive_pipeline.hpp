@@ -56,7 +56,12 @@ class PassivePipeline {
   };
   boost::container::static_vector<Known, max_contacts> known_;
 
-  MetricsRegistry& metrics_;
+  Counter& accepted_;
+  Counter& lost_;
+  Counter& doubled_;
+  Counter& overtaken_;
+  Counter& recovered_;
+  Counter& stale_;
   LatencyHistogram& order_latency_;
   LatencyHistogram& plan_latency_;
   LatencyHistogram& drive_latency_;

@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "passive_daemon.hpp"
+
+#include <algorithm>
+
+#include "peer/session_id.hpp"
+#include "service/control_socket.hpp"
+
+namespace telehug {
+namespace {
+
+constexpr Duration drive_round = 10ms;  // the safety stage wants to be served this often
+constexpr Duration housekeeping_round = 20ms;
+constexpr Duration state_interval = 100ms;
+
+DdsSettings dds_settings(const PeerConfig& config) {
+  DdsSettings settings;
+  settings.side = Side::passive;
+  settings.domain_id = static_cast<std::uint32_t>(config.domain);
+  if (!config.partition.empty()) settings.partition = config.partition;
+  settings.loopback_only = config.loopback_only;
+  return settings;
+}
+
+ControlServerOptions control_options(const ControlConfig& config) {
+  ControlServerOptions options;
+  options.socket = config.socket.empty() ? default_control_socket(Side::passive) : config.socket;
+  options.group = config.group;
+  return options;
+}
+
+SafetyLimits safety_limits(const SafetyConfig& config) {
+  SafetyLimits limits;
+  limits.max_strength = config.max_strength;
+  limits.heartbeat_timeout = std::chrono::milliseconds(config.heartbeat_timeout_ms);
+  return limits;
+}
+
+}  // namespace
+
+PassiveDaemon::PassiveDaemon(const PassiveConfig& config, JacketProfile profile, std::unique_ptr<JacketLink> link,
+                             const Clock& clock)
+    : config_(config),
+      clock_(clock),
+      started_(clock.now()),
+      session_(new_session_id()),
+      profile_(std::move(profile)),
+      safety_(std::move(link), profile_, safety_limits(config.safety)),
+      pipeline_(profile_, safety_, std::chrono::milliseconds(config.safety.drive_ms), session_, clock_, metrics_),
+      events_received_(metrics_.counter("events_received")),
+      events_replaced_(metrics_.counter("events_replaced_by_newer")),
+      total_latency_(metrics_.latency("event_to_link")),
+      participant_(dds_settings(config.peer)),
+      felt_writer_(participant_),
+      peer_(participant_, Side::passive, session_, std::chrono::milliseconds(config.safety.heartbeat_timeout_ms)),
+      touch_reader_(std::make_unique<Reader<TouchEvent>>(participant_,
+                                                         [this](const TouchEvent& event) {
+                                                           events_received_.add();
+                                                           const bool replaced =
+                                                               newest_event_.put({event, clock_.now()});
+                                                           if (replaced) events_replaced_.add();
+                                                         })),
+      control_(std::make_unique<ControlServer>(control_options(config.control))) {
+  answer_commands();
+}
+
+PassiveDaemon::~PassiveDaemon() = default;
+
+ExitCode PassiveDaemon::run(Signals& signals) {
+  control_->start();
+  drive_thread_ = std::thread([this] { drive_loop(); });
+  notifier_.ready();
+  spdlog::info("telehug-passive {} runs; jacket: {} on {}", version, profile_.name, config_.jacket.link);
+  for (const std::string& note : profile_.notes)
+    spdlog::info("{}", note);
+  while (signals.wait(housekeeping_round) != SignalRequest::stop) {
+    tell_watchers();
+    tell_peer();
+  }
+  notifier_.stopping();
+  ending_ = true;
+  drive_thread_.join();
+  spdlog::info("telehug-passive ends; the jacket is off");
+  return ExitCode::ok;
+}
+
+// --- drive thread ---
+
+void PassiveDaemon::drive_loop() {
+  while (!ending_) {
+    const auto arrival = newest_event_.wait_and_take(clock_.now() + drive_round);
+    const Timestamp now = clock_.now();
+    hear_peer(now);
+    follow_stops(now);
+    if (arrival) {
+      for (const Felt& felt : pipeline_.process(arrival->event, arrival->time)) {
+        felt_writer_.write(felt);
+        own_state_.last_felt = felt;
+        felt_.push(felt);
+      }
+      total_latency_.record(clock_.now() - arrival->time);
+    }
+    safety_.tick(now);
+    tell_running(now);
+    tell_state(now);
+    notifier_.alive(now);
+  }
+  safety_.stop("telehug-passive ends", clock_.now());
+}
+
+void PassiveDaemon::hear_peer(Timestamp now) {
+  if (peer_.serve(now)) safety_.on_heartbeat(now);
+}
+
+void PassiveDaemon::follow_stops(Timestamp now) {
+  const bool stop = stopped_ || peer_.stopped_by_peer();
+  if (stop == safety_.stopped()) return;
+  if (!stop) {
+    safety_.resume();
+    return;
+  }
+  const std::lock_guard lock(words_mutex_);
+  safety_.stop(stopped_ ? stop_reason_ : "the other side has stopped everything", now);
+}
+
+void PassiveDaemon::tell_running(Timestamp now) {
+  const auto running = safety_.running();
+  if (running == told_running_) return;
+  told_running_ = running;
+  running_.push({to_ns(now), running});
+}
+
+void PassiveDaemon::tell_state(Timestamp now) {
+  if (now - told_state_ < state_interval) return;
+  const std::unique_lock lock(state_mutex_, std::try_to_lock);
+  if (!lock.owns_lock()) return;
+  told_state_ = now;
+  own_state_.link = safety_.link_status();
+  own_state_.safety = safety_.counters();
+  own_state_.peer = peer_.state(now);
+  own_state_.stopped = safety_.stopped();
+  own_state_.stop_reason = safety_.stop_reason();
+  own_state_.running.assign(told_running_.begin(), told_running_.end());
+  state_ = own_state_;
+}
+
+// --- housekeeping ---
+
+DriveThreadState PassiveDaemon::state() const {
+  const std::lock_guard lock(state_mutex_);
+  return state_;
+}
+
+void PassiveDaemon::tell_peer() {
+  if (const bool stopped = stopped_; stopped != told_stopped_) {
+    const std::lock_guard lock(words_mutex_);
+    peer_.tell_stop(stopped, stop_reason_);
+    told_stopped_ = stopped;
+  }
+  if (auto peer_status = peer_.take_peer_status()) {
+    const std::lock_guard lock(words_mutex_);
+    peer_status_ = *std::move(peer_status);
+  }
+  const DriveThreadState now = state();
+  SideStatus own;
+  own.session = session_;
+  own.side = Side::passive;
+  own.version = version;
+  own.stopped = now.stopped;
+  own.ready = now.link.state == LinkState::armed && !now.stopped;
+  own.reason = now.stopped ? now.stop_reason : own.ready ? "" : "no jacket answers: " + now.link.problem;
+  peer_.tell(own);
+}
+
+}  // namespace telehug

@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "passive_pipeline.hpp"
+
+#include <algorithm>
+
+namespace telehug {
+
+PassivePipeline::PassivePipeline(const JacketProfile& profile, SafetyStage& safety, Duration drive_duration,
+                                 const SessionId& session, const Clock& clock, MetricsRegistry& metrics)
+    : profile_(profile),
+      safety_(safety),
+      drive_duration_(drive_duration),
+      session_(session),
+      clock_(clock),
+      accepted_(metrics.counter("events_accepted")),
+      lost_(metrics.counter("events_lost")),
+      doubled_(metrics.counter("events_doubled")),
+      overtaken_(metrics.counter("events_overtaken")),
+      recovered_(metrics.counter("transitions_recovered")),
+      stale_(metrics.counter("events_stale")),
+      order_latency_(metrics.latency("order")),
+      plan_latency_(metrics.latency("plan")),
+      drive_latency_(metrics.latency("drive")) {}
+
+const FeltAnswers& PassivePipeline::process(const TouchEvent& event, Timestamp now) {
+  answers_.clear();
+  const OrderedTouch* touch = order_.accept(event);
+  const bool stale = touch != nullptr && staleness_.is_stale(event, now);
+  const Timestamp ordered = clock_.now();
+  if (touch != nullptr && touch->new_session) {
+    plan_ = {};
+    known_.clear();
+    safety_.all_off(now);
+  }
+  if (touch != nullptr && stale) refuse(FeltOutcome::stale, *touch, now);
+  if (touch != nullptr && !stale) {
+    plan_ = touch_to_drives(event, touch->transitions, profile_, plan_, now, drive_duration_);
+    const Timestamp planned = clock_.now();
+    const SafetyVerdict verdict = safety_.apply(plan_.drives, now);
+    answer(verdict, event, now);
+    plan_latency_.record(planned - ordered);
+    drive_latency_.record(clock_.now() - planned);
+  }
+  order_latency_.record(ordered - now);
+  tell_counters();
+  return answers_;
+}
+
+void PassivePipeline::answer(const SafetyVerdict& verdict, const TouchEvent& event, Timestamp received) {
+  const std::int64_t driven_time_ns = to_ns(clock_.now());
+  for (const ContactAnswer& planned : plan_.answers) {
+    FeltOutcome outcome = planned.outcome;
+    if (outcome == FeltOutcome::driven) {
+      outcome = verdict.outcome == FeltOutcome::driven ? verdict.outcome_at(planned.actuators) : verdict.outcome;
+    }
+    if (!is_news(planned, outcome)) continue;
+    Felt& felt = answers_.emplace_back();
+    felt.session = session_;
+    felt.touch_session = event.session;
+    felt.touch_sequence = planned.touch_sequence;
+    felt.contact_id = planned.contact_id;
+    felt.phase = planned.phase;
+    felt.box = planned.box;
+    felt.outcome = outcome;
+    if (outcome == FeltOutcome::driven) felt.actuators = planned.actuators;
+    felt.received_time_ns = to_ns(received);
+    felt.driven_time_ns = outcome == FeltOutcome::driven ? driven_time_ns : 0;
+  }
+}
+
+void PassivePipeline::refuse(FeltOutcome outcome, const OrderedTouch& touch, Timestamp received) {
+  for (const Transition& transition : touch.transitions) {
+    if (answers_.size() == answers_.capacity()) return;
+    Felt& felt = answers_.emplace_back();
+    felt.session = session_;
+    felt.touch_session = touch.event->session;
+    felt.touch_sequence = transition.event_sequence;
+    felt.contact_id = transition.contact.id;
+    felt.phase = transition.contact.phase;
+    felt.box = transition.contact.box;
+    felt.outcome = outcome;
+    felt.received_time_ns = to_ns(received);
+  }
+}
+
+// A contact is answered when it goes down or up, and when it moves to another box or is felt differently.
+bool PassivePipeline::is_news(const ContactAnswer& answer, FeltOutcome outcome) {
+  const auto known = std::ranges::find(known_, answer.contact_id, &Known::contact);
+  const bool remembered = known != known_.end();
+  if (answer.phase == Phase::up) {
+    if (remembered) known_.erase(known);
+    return true;
+  }
+  if (remembered && answer.phase == Phase::move && known->box == answer.box && known->outcome == outcome) return false;
+  if (remembered) {
+    *known = {answer.contact_id, answer.box, outcome};
+  } else {
+    if (known_.size() == known_.capacity()) known_.erase(known_.begin());
+    known_.push_back({answer.contact_id, answer.box, outcome});
+  }
+  return true;
+}
+
+void PassivePipeline::tell_counters() {
+  const TouchOrderCounters& order = order_.counters();
+  accepted_.set(order.accepted);
+  lost_.set(order.lost);
+  doubled_.set(order.duplicates);
+  overtaken_.set(order.overtaken);
+  recovered_.set(order.recovered);
+  stale_.set(staleness_.stale_count());
+}
+
+}  // namespace telehug

@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// What the passive daemon tells people: answers on the local socket, events for those who watch, the log.
+#include <fmt/core.h>
+
+#include "common/names.hpp"
+#include "passive_daemon.hpp"
+
+namespace telehug {
+namespace {
+
+using Json = nlohmann::json;
+
+template <typename Ids>
+Json id_list(const Ids& ids) {
+  Json list = Json::array();
+  for (const std::uint8_t id : ids)
+    list.push_back(id);
+  return list;
+}
+
+Json felt_json(const Felt& felt) {
+  return {{"event_sequence", felt.touch_sequence},
+          {"contact", felt.contact_id},
+          {"phase", name_of(felt.phase)},
+          {"box", felt.box},
+          {"outcome", name_of(felt.outcome)},
+          {"actuators", id_list(felt.actuators)},
+          {"received_time_ns", felt.received_time_ns},
+          {"driven_time_ns", felt.driven_time_ns}};
+}
+
+const char* name_of(LinkState state) {
+  constexpr const char* names[] = {"absent", "connecting", "armed"};
+  return names[static_cast<std::size_t>(state)];
+}
+
+Json problem(std::string what, std::string to_do) {
+  return {{"what", std::move(what)}, {"do", std::move(to_do)}};
+}
+
+}  // namespace
+
+void PassiveDaemon::answer_commands() {
+  control_->on("status", [this](const Json&) { return status(); });
+  control_->on("stop", [this](const Json& request) {
+    return set_stopped(true, request.value("reason", std::string("stopped on this side")));
+  });
+  control_->on("resume", [this](const Json&) { return set_stopped(false, ""); });
+}
+
+Json PassiveDaemon::set_stopped(bool stopped, const std::string& reason) {
+  {
+    const std::lock_guard lock(words_mutex_);
+    stop_reason_ = reason.substr(0, 200);
+  }
+  stopped_ = stopped;
+  spdlog::warn("{}", stopped ? "stopped: " + reason : "resumed");
+  return {{"stopped", stopped}};
+}
+
+Json PassiveDaemon::problems(const DriveThreadState& now) const {
+  Json list = Json::array();
+  if (now.link.state != LinkState::armed) {
+    list.push_back(problem(fmt::format("no jacket answers on {}: {}", now.link.device, now.link.problem),
+                           "check its cable and power, and [jacket] link in the configuration"));
+  }
+  if (stopped_) {
+    list.push_back(problem("stopped here: " + now.stop_reason, "run `telehug resume`"));
+  }
+  if (peer_.stopped_by_peer()) list.push_back(problem("the other side has stopped everything", "ask them to resume"));
+  if (!now.peer.alive) {
+    list.push_back(
+        problem("no peer is connected", "start telehug-active on the other PC; domain and partition must agree"));
+  }
+  return list;
+}
+
+Json PassiveDaemon::status() const {
+  const DriveThreadState now = state();
+  const bool armed = now.link.state == LinkState::armed;
+  Json counters = metrics_.counters_json();
+  counters["peer_losses"] = now.peer.losses;
+  counters["messages_dropped"] = peer_.dropped() + touch_reader_->counters().malformed + touch_reader_->counters().invalid;
+  const SafetyCounters& safety = now.safety;
+  counters["safety_accepted"] = safety.drives_accepted;
+  counters["safety_refused_unknown_actuator"] = safety.refused_unknown_actuator;
+  counters["safety_refused_not_finite"] = safety.refused_not_finite;
+  counters["safety_refused_by_limit"] = safety.refused_by_limit;
+  counters["safety_refused_stopped"] = safety.refused_stopped;
+  counters["safety_refused_no_sender"] = safety.refused_no_sender;
+  counters["safety_refused_no_jacket"] = safety.refused_no_jacket;
+  counters["safety_clamped_strength"] = safety.clamped_strength;
+  counters["safety_clamped_end"] = safety.clamped_end;
+  counters["off_ended"] = safety.off_ended;
+  counters["off_expired"] = safety.off_expired;
+  counters["off_stop"] = safety.off_stop;
+  counters["off_heartbeat_lost"] = safety.off_heartbeat_lost;
+  counters["off_link_lost"] = safety.off_link_lost;
+  counters["off_clock_jumped"] = safety.off_clock_jumped;
+  counters["jacket_reconnects"] = now.link.reconnects;
+  counters["jacket_frames_sent"] = now.link.frames_sent;
+  counters["jacket_frames_received"] = now.link.frames_received;
+  counters["jacket_malformed_frames"] = now.link.malformed_frames;
+  counters["jacket_nacks"] = now.link.nacks;
+
+  Json peer = {{"connected", now.peer.alive}, {"session", now.peer.session}};
+  if (now.peer.round_trip) peer["round_trip_ms"] = to_ms(*now.peer.round_trip);
+  {
+    const std::lock_guard lock(words_mutex_);
+    if (peer_status_ && now.peer.alive) {
+      peer["stopped"] = peer_status_->stopped;
+      peer["ready"] = peer_status_->ready;
+      peer["reason"] = peer_status_->reason;
+    }
+  }
+  Json answer = {{"side", "passive"},
+                 {"version", version},
+                 {"session", session_},
+                 {"uptime_s", std::chrono::duration<double>(clock_.now() - started_).count()},
+                 {"state", now.stopped       ? "stopped"
+                           : !armed          ? "fault"
+                           : !now.peer.alive ? "waiting"
+                                             : "ok"},
+                 {"problems", problems(now)},
+                 {"peer", peer},
+                 {"jacket",
+                  {{"name", profile_.name},
+                   {"device", now.link.device},
+                   {"state", name_of(now.link.state)},
+                   {"firmware", now.link.firmware_version},
+                   {"motors", now.link.motor_count},
+                   {"running", id_list(now.running)}}},
+                 {"counters", counters},
+                 {"latency_ms", metrics_.latencies_json()}};
+  if (now.last_felt) answer["last_touch"] = felt_json(*now.last_felt);
+  return answer;
+}
+
+void PassiveDaemon::tell_watchers() {
+  Felt felt;
+  while (felt_.pop(felt)) {
+    if (!control_->has_watchers()) continue;
+    Json event = felt_json(felt);
+    event["event"] = "felt";
+    event["side"] = "passive";
+    control_->broadcast(std::move(event));
+  }
+  RunningChange change;
+  while (running_.pop(change)) {
+    control_->broadcast({{"event", "running"},
+                         {"side", "passive"},
+                         {"time_ns", change.time_ns},
+                         {"actuators", id_list(change.actuators)}});
+  }
+  const DriveThreadState now = state();
+  say_peer_.say(spdlog::level::info, now.peer.alive ? "peer connected" : "no peer");
+  if (now.link.state == LinkState::armed) {
+    say_jacket_.say(spdlog::level::info, fmt::format("jacket ready: {}, firmware {}, {} motors", now.link.device,
+                                                     now.link.firmware_version, now.link.motor_count));
+  } else {
+    say_jacket_.say(spdlog::level::warn, fmt::format("no jacket answers on {}: {}", now.link.device, now.link.problem));
+  }
+}
+
+}  // namespace telehug
