@@ -46,7 +46,7 @@ DdsParticipant::Impl::Impl(const DdsSettings& settings) : side(settings.side) {
   participant = dds::DomainParticipantFactory::get_instance()->create_participant(settings.domain_id, qos, nullptr,
                                                                                   dds::StatusMask::none());
   if (participant == nullptr) {
-    throw std::runtime_error(
+    throw DdsError(
         fmt::format("DDS could not join domain {}: are its UDP ports (from {}) free and the network up?",
                     settings.domain_id, 7400 + 250 * settings.domain_id));
   }
@@ -55,7 +55,7 @@ DdsParticipant::Impl::Impl(const DdsSettings& settings) : side(settings.side) {
   if (publisher == nullptr || subscriber == nullptr) {
     participant->delete_contained_entities();
     dds::DomainParticipantFactory::get_instance()->delete_participant(participant);
-    throw std::runtime_error("DDS could not make a publisher and a subscriber in its own participant");
+    throw DdsError("DDS could not make a publisher and a subscriber in its own participant");
   }
 }
 
@@ -69,7 +69,7 @@ dds::Topic* DdsParticipant::Impl::find_or_create(const std::string& name, dds::T
   const std::string type_name = type.get_type_name();
   if (participant->find_type(type_name).empty()) type.register_type(participant);
   dds::Topic* created = participant->create_topic(name, type_name, dds::TOPIC_QOS_DEFAULT);
-  if (created == nullptr) throw std::runtime_error(fmt::format("DDS refused the topic {}", name));
+  if (created == nullptr) throw DdsError(fmt::format("DDS refused the topic {}", name));
   return created;
 }
 

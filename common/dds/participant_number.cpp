@@ -24,7 +24,7 @@ Numbers& numbers() {
 ParticipantNumber::ParticipantNumber() {
   const std::lock_guard lock(numbers().mutex);
   while (numbers().taken.test(number_)) {
-    if (++number_ == max_loopback_participants) throw std::runtime_error("this program has too many DDS participants");
+    if (++number_ == max_loopback_participants) throw DdsError("this program has too many DDS participants");
   }
   numbers().taken.set(number_);
 }

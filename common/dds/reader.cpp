@@ -44,7 +44,7 @@ struct Reader<T>::Impl final : dds::DataReaderListener {
     reader =
         participant->subscriber->create_datareader(topic, reader_qos<T>(), this, dds::StatusMask::data_available());
     if (reader == nullptr) {
-      throw std::runtime_error(fmt::format("DDS refused a reader of the topic {}", topic->get_name()));
+      throw DdsError(fmt::format("DDS refused a reader of the topic {}", topic->get_name()));
     }
   }
   ~Impl() override {

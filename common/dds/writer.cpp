@@ -21,7 +21,7 @@ struct Writer<T>::Impl {
     dds::Topic* topic = participant->topic<T>(participant->side);
     writer = participant->publisher->create_datawriter(topic, writer_qos<T>());
     if (writer == nullptr) {
-      throw std::runtime_error(fmt::format("DDS refused a writer of the topic {}", topic->get_name()));
+      throw DdsError(fmt::format("DDS refused a writer of the topic {}", topic->get_name()));
     }
   }
   ~Impl() { participant->publisher->delete_datawriter(writer); }

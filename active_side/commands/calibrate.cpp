@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <CLI/CLI.hpp>
+#include <chrono>
+#include <filesystem>
+#include <memory>
+
+#include "capture/rig_directory.hpp"
+#include "capture/virtual_rig/export_rig.hpp"
+#include "commands/calibrate_by_hand.hpp"
+#include "commands/config_options.hpp"
+#include "config/locator.hpp"
+#include "config/places.hpp"
+#include "eval/rig_calibration.hpp"
+
+namespace telehug {
+namespace {
+
+struct Options {
+  ConfigOptions config;
+  std::string source;
+  std::string out;
+  std::vector<int> frames;
+  double width_mm = 0;
+  double height_mm = 0;
+  std::vector<std::string> points;
+};
+
+std::string utc_now() {
+  const std::time_t now = std::chrono::system_clock::to_time_t(std::chrono::system_clock::now());
+  std::tm utc{};
+  gmtime_r(&now, &utc);
+  std::array<char, sizeof "2026-01-01T00:00:00Z"> text{};
+  (void)std::strftime(text.data(), text.size(), "%FT%TZ", &utc);
+  return text.data();
+}
+
+// A folder of its own, gone with this object.
+class ScratchFolder {
+ public:
+  ScratchFolder() {
+    std::string name = (std::filesystem::temp_directory_path() / "telehug-calibration-XXXXXX").string();
+    if (mkdtemp(name.data()) == nullptr) throw std::runtime_error("no folder can be made in the temporary folder");
+    path_ = name;
+  }
+  ~ScratchFolder() {
+    std::error_code ignored;
+    std::filesystem::remove_all(path_, ignored);
+  }
+  ScratchFolder(const ScratchFolder&) = delete;
+  ScratchFolder& operator=(const ScratchFolder&) = delete;
+
+  [[nodiscard]] const std::filesystem::path& path() const noexcept { return path_; }
+
+ private:
+  std::filesystem::path path_;
+};
+
+Result<Calibration> from_recording(const std::filesystem::path& folder, const std::vector<int>& frames) {
+  const auto rig = open_rig_directory(folder);
+  if (!rig) return rig.error();
+  return calibrate_from_recording(*rig, frames, utc_now());
+}
+
+Result<Calibration> from_virtual_rig(const VirtualRigSettings& settings, const std::vector<int>& frames) {
+  const ScratchFolder scratch;
+  const Status exported =
+      export_rig_directory(settings, scratch.path(), {.sequence_frames = 0, .single_frames = 0});
+  if (!exported) return exported.error();
+  auto calibration = from_recording(scratch.path(), frames);
+  if (calibration) calibration->camera = "virtual";
+  return calibration;
+}
+
+Result<Calibration> calibrate(const Options& options, const ActiveConfig& config) {
+  const std::string spec = options.source.empty() ? config.camera.source : options.source;
+  const auto source = parse_camera_source(spec);
+  if (!source) return source.error();
+  const CaptureSettings capture = capture_settings(config);
+  switch (source->kind) {
+    case CameraSourceKind::recording:
+      return from_recording(source->folder.substr(0, source->folder.find('?')), options.frames);
+    case CameraSourceKind::virtual_rig:
+      return from_virtual_rig(capture.virtual_rig, options.frames);
+    case CameraSourceKind::webcam:
+      break;
+  }
+  HandCalibration by_hand;
+  by_hand.screen = config.rig.screen;
+  if (options.width_mm > 0) by_hand.screen.width_mm = options.width_mm;
+  if (options.height_mm > 0) by_hand.screen.height_mm = options.height_mm;
+  if (auto points = parse_points(options.points); points) {
+    by_hand.points = *std::move(points);
+  } else {
+    return points.error();
+  }
+  const SteadyClock clock;
+  auto camera = make_frame_source(spec, capture, clock);
+  if (!camera) return camera.error();
+  return calibrate_by_hand(**camera, by_hand, utc_now());
+}
+
+ExitCode run(const Options& options) {
+  const auto config = load_config(options.config);
+  if (!config) return fail(ExitCode::config, config.error());
+  const auto calibration = calibrate(options, *config);
+  if (!calibration) return fail(ExitCode::device, calibration.error());
+  const std::filesystem::path out = options.out.empty() ? rig_file(config->rig) : std::filesystem::path(options.out);
+  if (const Status written = write_calibration(out, *calibration); !written) {
+    return fail(ExitCode::device, written.error());
+  }
+  fmt::print("calibrated: {}, screen {:.0f} x {:.0f} mm, camera {:.0f} mm {} the screen's top\nwritten to {}\n",
+             calibration->camera, calibration->screen.width_mm, calibration->screen.height_mm,
+             std::abs(calibration->model.camera_below_top_mm()),
+             calibration->model.camera_below_top_mm() < 0 ? "above" : "below", out.string());
+  return ExitCode::ok;
+}
+
+}  // namespace
+
+void add_calibrate(CLI::App& app, ExitCode& result) {
+  auto options = std::make_shared<Options>();
+  CLI::App* command =
+      app.add_subcommand("calibrate", "Learn where the camera stands, from two touches of known points");
+  add_config_options(*command, options->config);
+  command->add_option("--source", options->source, "webcam (asks for the touches), replay:DIR or virtual");
+  command->add_option("--out", options->out, "The calibration file; else where `run` looks for it");
+  command->add_option("--frames", options->frames, "replay: and virtual: which two calibration pictures, e.g. 1,2")
+      ->delimiter(',')
+      ->expected(2);
+  command->add_option("--width-mm", options->width_mm, "webcam: width of the visible screen");
+  command->add_option("--height-mm", options->height_mm, "webcam: height of the visible screen");
+  command->add_option("--point", options->points, "webcam: a point to touch, in mm from the screen's top left: X,Y")
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  command->callback([options, &result] { result = run(*options); });
+}
+
+}  // namespace telehug

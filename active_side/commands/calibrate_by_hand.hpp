@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "calibration/calibration_file.hpp"
+#include "capture/frame_source.hpp"
+#include "common/result.hpp"
+
+namespace telehug {
+
+struct HandCalibration {
+  ScreenSize screen;                // mm; pixels, if known
+  std::vector<ScreenPoint> points;  // two, or none: the thesis'
+};
+
+// "X,Y" each, in mm.
+Result<std::vector<ScreenPoint>> parse_points(const std::vector<std::string>& texts);
+
+// The thesis' points: the screen's middle at a third of its height, and 30 mm to the right of it farther down (100 and
+// 220 mm on a screen of 300 mm).
+[[nodiscard]] std::vector<ScreenPoint> thesis_points(const ScreenSize& screen);
+
+// Leads a person through it on the terminal: two pictures to show on the whole screen (written to the current folder),
+// hands away for the border, then one touch of each point.
+Result<Calibration> calibrate_by_hand(FrameSource& camera, const HandCalibration& wanted, const std::string& date);
+
+}  // namespace telehug

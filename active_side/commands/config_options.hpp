@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "commands/command.hpp"
+#include "capture/make_frame_source.hpp"
+#include "config/load.hpp"
+
+namespace telehug {
+
+// Of the usual places, or of what the command line says instead.
+[[nodiscard]] Result<ActiveConfig> load_config(const ConfigOptions& options);
+
+[[nodiscard]] CaptureSettings capture_settings(const ActiveConfig& config);
+
+}  // namespace telehug

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <CLI/CLI.hpp>
+#include <memory>
+
+#include "body_map/haar_face_finder.hpp"
+#include "commands/command.hpp"
+#include "eval/error_table.hpp"
+#include "eval/touch_eval.hpp"
+#include "eval_face/face_evaluation.hpp"
+
+namespace telehug {
+namespace {
+
+ExitCode evaluate_touch(const EvalTouchOptions& options) {
+  const auto report = eval_touch(options);
+  if (!report) return fail(ExitCode::device, report.error());
+  for (const std::string& picture : report->unreadable)
+    fmt::print(stderr, "telehug-active: {}\n", picture);
+  fmt::print("{}", format_error_table(*report));
+  return ExitCode::ok;
+}
+
+struct FaceOptions {
+  std::string folder;
+  std::string out;
+};
+
+ExitCode evaluate_face(const FaceOptions& options) {
+  auto finder = make_haar_face_finder();
+  if (!finder) return fail(ExitCode::device, finder.error());
+  const auto evaluation = eval_face(options.folder, options.out, **finder);
+  if (!evaluation) return fail(ExitCode::device, evaluation.error());
+  fmt::print("{} finder: {} pictures, {} with a remote face\n", (*finder)->name(), evaluation->pictures,
+             evaluation->picked);
+  if (evaluation->scores) fmt::print("{}", report(*evaluation->scores));
+  return ExitCode::ok;
+}
+
+}  // namespace
+
+void add_eval(CLI::App& app, ExitCode& result) {
+  CLI::App* eval = app.add_subcommand("eval", "Measure an algorithm on recorded pictures");
+  eval->require_subcommand(1);
+
+  auto touch = std::make_shared<EvalTouchOptions>();
+  auto rig = std::make_shared<std::string>();
+  auto out = std::make_shared<std::string>();
+  CLI::App* eval_touch = eval->add_subcommand("touch", "Fingers of a recording: a row a touch, and the error table");
+  eval_touch->add_option("rig", *rig, "The recording's folder")->required()->type_name("RIG_DIR");
+  eval_touch->add_option("--out", *out, "CSV: frame,contact,x_mm,y_mm")->required()->type_name("FILE.csv");
+  eval_touch->add_option("--part", touch->part, "Which pictures")
+      ->check(CLI::IsMember({"frames", "hard", "sequence"}))
+      ->capture_default_str();
+  eval_touch->add_option("--detector", touch->detector, "Which algorithm finds the finger")
+      ->check(CLI::IsMember({"thesis", "default"}))
+      ->capture_default_str();
+  eval_touch->add_option("--model", touch->model, "Which model places it on the screen")
+      ->check(CLI::IsMember({"thesis", "default"}))
+      ->capture_default_str();
+  eval_touch->add_option("--calibration", touch->calibration, "Numbers of the calibration pictures to use: 1,2")
+      ->delimiter(',');
+  eval_touch->callback([=, &result] {
+    touch->rig = *rig;
+    touch->out = *out;
+    result = evaluate_touch(*touch);
+  });
+
+  auto face = std::make_shared<FaceOptions>();
+  CLI::App* eval_face = eval->add_subcommand("face", "Remote faces of a folder of screen pictures: a row a picture");
+  eval_face->add_option("folder", face->folder, "Pictures, perhaps with labels.csv")->required()->type_name("DIR");
+  eval_face->add_option("--out", face->out, "CSV: image,face_x,face_y,face_w,face_h")
+      ->required()
+      ->type_name("FILE.csv");
+  eval_face->callback([face, &result] { result = evaluate_face(*face); });
+}
+
+}  // namespace telehug

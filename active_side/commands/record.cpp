@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <fstream>
+#include <memory>
+
+#include "calibration/calibration_file.hpp"
+#include "commands/config_options.hpp"
+#include "config/places.hpp"
+#include "pictures/jpeg_encoder.hpp"
+#include "service/signals.hpp"
+
+namespace telehug {
+namespace {
+
+constexpr int jpeg_quality = 92;
+
+struct Options {
+  ConfigOptions config;
+  std::string source;
+  std::string folder;
+  double seconds = 10;
+};
+
+Status write_bytes(const std::filesystem::path& path, const std::vector<std::uint8_t>& bytes) {
+  std::ofstream file(path, std::ios::binary);
+  file.write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+  file.close();
+  if (file) return Done{};
+  return Error{fmt::format("{} can't be written: is the disk full?", path.string())};
+}
+
+// The screen's size goes with the pictures, so that the recording can be evaluated.
+Status write_rig_toml(const std::filesystem::path& folder, const ActiveConfig& config) {
+  ScreenSize screen = config.rig.screen;
+  if (const auto calibration = read_calibration(rig_file(config.rig)); calibration) screen = calibration->screen;
+  if (!(screen.width_mm > 0) || !(screen.height_mm > 0)) {
+    return Error{"how large is the screen? Calibrate first, or set rig.width_mm and rig.height_mm"};
+  }
+  const std::string text = fmt::format("width_mm = {}\nheight_mm = {}\nresolution = [{}, {}]\n", screen.width_mm,
+                                       screen.height_mm, screen.width_px, screen.height_px);
+  return write_bytes(folder / "rig.toml", {text.begin(), text.end()});
+}
+
+Result<int> record(FrameSource& camera, const Options& options, Signals& signals, const Clock& clock) {
+  const std::filesystem::path pictures = std::filesystem::path(options.folder) / "sequence";
+  std::ofstream times(std::filesystem::path(options.folder) / "times.csv");
+  times << "frame,monotonic_ns\n";
+  Frame frame;
+  int count = 0;
+  const Timestamp end = clock.now() + std::chrono::duration_cast<Duration>(std::chrono::duration<double>(options.seconds));
+  while (clock.now() < end && signals.take() != SignalRequest::stop) {
+    const ReadOutcome outcome = camera.read(frame, 200ms);
+    if (outcome == ReadOutcome::ended) break;
+    if (outcome == ReadOutcome::lost) return Error{camera.last_error()};
+    if (outcome != ReadOutcome::frame) continue;
+    const auto jpeg = encode_jpeg(frame.bgr, jpeg_quality);
+    if (!jpeg) return jpeg.error();
+    const std::string name = fmt::format("{:05}", ++count);
+    if (auto written = write_bytes(pictures / (name + ".jpg"), *jpeg); !written) return written.error();
+    times << name << ',' << to_ns(frame.time) << '\n';
+  }
+  times.close();
+  if (!times) return Error{"times.csv can't be written: is the disk full?"};
+  return count;
+}
+
+ExitCode run(const Options& options) {
+  Signals signals;
+  const auto config = load_config(options.config);
+  if (!config) return fail(ExitCode::config, config.error());
+  std::error_code problem;
+  if (std::filesystem::exists(std::filesystem::path(options.folder) / "sequence")) {
+    return fail(ExitCode::device, Error{options.folder + " holds a recording already; choose another folder"});
+  }
+  std::filesystem::create_directories(std::filesystem::path(options.folder) / "sequence", problem);
+  if (problem) return fail(ExitCode::device, Error{options.folder + ": " + problem.message()});
+  if (auto written = write_rig_toml(options.folder, *config); !written) return fail(ExitCode::device, written.error());
+
+  const SteadyClock clock;
+  auto camera =
+      make_frame_source(options.source.empty() ? config->camera.source : options.source, capture_settings(*config), clock);
+  if (!camera) return fail(ExitCode::config, camera.error());
+  if (const Status opened = (*camera)->open(); !opened) return fail(ExitCode::device, opened.error());
+  fmt::print("recording {} to {} for {:.0f} s; these are pictures of your desk and hands\n", (*camera)->name(),
+             options.folder, options.seconds);
+  const auto count = record(**camera, options, signals, clock);
+  if (!count) return fail(ExitCode::device, count.error());
+  fmt::print("{} pictures; replay them with `telehug-active run --source replay:{}`\n", *count, options.folder);
+  return *count > 0 ? ExitCode::ok : ExitCode::device;
+}
+
+}  // namespace
+
+void add_record(CLI::App& app, ExitCode& result) {
+  auto options = std::make_shared<Options>();
+  CLI::App* command = app.add_subcommand("record", "Keep what the camera sees, to be replayed or evaluated");
+  command->add_option("folder", options->folder, "Where to")->required()->type_name("DIR");
+  command->add_option("--source", options->source, "Instead of the configured camera: webcam, replay:DIR or virtual");
+  command->add_option("--seconds", options->seconds, "How long; Ctrl-C ends it earlier")
+      ->check(CLI::Range(0.1, 3600.0))
+      ->capture_default_str();
+  add_config_options(*command, options->config);
+  command->callback([options, &result] { result = run(*options); });
+}
+
+}  // namespace telehug

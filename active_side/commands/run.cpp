@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <CLI/CLI.hpp>
+#include <memory>
+
+#include "active_daemon.hpp"
+#include "commands/config_options.hpp"
+#include "service/control_socket.hpp"
+
+namespace telehug {
+namespace {
+
+struct Options {
+  ConfigOptions config;
+  std::string source;
+  bool loop = false;
+};
+
+ExitCode run(const Options& options) {
+  Signals signals;
+  auto config = load_config(options.config);
+  if (!config) return fail(ExitCode::config, config.error());
+  if (!options.source.empty()) config->camera.source = options.source;
+  set_up_log(config->log.level);
+
+  const SteadyClock clock;
+  CaptureSettings capture = capture_settings(*config);
+  capture.loop = options.loop;
+  auto camera = make_frame_source(config->camera.source, capture, clock);
+  if (!camera) return fail(ExitCode::config, camera.error());
+  try {
+    ActiveDaemon daemon(*config, *std::move(camera), clock);
+    return daemon.run(signals);
+  } catch (const AlreadyRunning& running) {
+    return fail(ExitCode::already_running, Error{running.what()});
+  } catch (const DdsError& error) {
+    return fail(ExitCode::network, Error{error.what()});
+  }
+}
+
+}  // namespace
+
+void add_run(CLI::App& app, ExitCode& result) {
+  auto options = std::make_shared<Options>();
+  CLI::App* command = app.add_subcommand("run", "See touches and send them, until SIGTERM (this is the daemon)");
+  add_config_options(*command, options->config);
+  command->add_option("--source", options->source, "Instead of the configured camera: webcam, replay:DIR or virtual");
+  command->add_flag("--loop", options->loop, "Begin a recording again when it is over");
+  command->callback([options, &result] { result = run(*options); });
+}
+
+}  // namespace telehug

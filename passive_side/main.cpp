@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/core.h>
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <exception>
+
+#include "common/version.hpp"
+#include "config/load.hpp"
+#include "config/places.hpp"
+#include "jacket/load_jacket_profile.hpp"
+#include "link/make_link.hpp"
+#include "passive_daemon.hpp"
+#include "service/control_socket.hpp"
+
+namespace {
+
+using namespace telehug;
+
+constexpr const char* examples = R"(
+Examples:
+  telehug-passive run --set jacket.link=serial:/dev/serial/by-id/usb-FTDI...
+  telehug-passive run --set jacket.link=simulated
+
+Exit codes: 0 ok, 1 fault of telehug, 2 wrong command line, 3 faults in the configuration or the jacket's profile,
+  4 the jacket can't be used, 10 another telehug-passive runs, 13 DDS can't be set up.)";
+
+struct Options {
+  std::string file;
+  std::vector<std::string> overrides;
+};
+
+ExitCode fail(ExitCode code, const std::string& message) {
+  fmt::print(stderr, "telehug-passive: {}\n", message);
+  return code;
+}
+
+ExitCode run(const Options& options) {
+  Signals signals;
+  ConfigSources sources = usual_config_sources();
+  if (!options.file.empty()) sources.only_file = options.file;
+  sources.overrides = options.overrides;
+  const auto config = load_passive_config(sources);
+  if (!config) return fail(ExitCode::config, config.error().message);
+  set_up_log(config->log.level);
+  auto profile = load_jacket_profile(jacket_profile_file(config->jacket));
+  if (!profile) return fail(ExitCode::config, profile.error().message);
+  LinkOptions link_options;
+  link_options.baud = static_cast<unsigned>(config->jacket.baud);
+  auto link = make_link(config->jacket.link, link_options);
+  if (!link) return fail(ExitCode::device, link.error().message);
+  const SteadyClock clock;
+  try {
+    PassiveDaemon daemon(*config, *std::move(profile), *std::move(link), clock);
+    return daemon.run(signals);
+  } catch (const AlreadyRunning& running) {
+    return fail(ExitCode::already_running, running.what());
+  } catch (const DdsError& error) {
+    return fail(ExitCode::network, error.what());
+  }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  ExitCode result = ExitCode::ok;
+  CLI::App app("Lets the jacket on this PC be touched from the other side, within its limits.", "telehug-passive");
+  app.footer(examples);
+  app.set_version_flag("--version", telehug::version);
+  app.require_subcommand(1);
+  Options options;
+  CLI::App* command = app.add_subcommand("run", "Drive the jacket, until SIGTERM (this is the daemon)");
+  command->add_option("--config", options.file, "Read only this file")->type_name("FILE");
+  command->add_option("--set", options.overrides, "Override one key, as often as you like")
+      ->type_name("SECTION.KEY=VALUE")
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  command->callback([&] { result = run(options); });
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& problem) {
+    // --help and --version come this way, too, with code 0.
+    result = app.exit(problem) == 0 ? ExitCode::ok : ExitCode::usage;
+  } catch (const std::exception& problem) {
+    result = fail(ExitCode::internal, problem.what());
+  }
+  return to_int(result);
+}
