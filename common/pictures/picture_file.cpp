@@ -13,25 +13,21 @@
 #include <span>
 #include <vector>
 
-#include "pictures/jpeg_decoder.hpp"
+#include "pictures/jpeg_encoder.hpp"
 
 namespace telehug {
 namespace {
 
-constexpr std::uintmax_t max_file_bytes = 64u << 20;
-constexpr png_uint_32 max_side_px = 8192;
-
 using File = std::unique_ptr<std::FILE, int (*)(std::FILE*)>;
 
-File open_file(const std::filesystem::path& path, const char* mode) {
-  return File{std::fopen(path.c_str(), mode), &std::fclose};
-}
+constexpr std::uintmax_t max_file_bytes = 64u << 20;
+constexpr png_uint_32 max_side_px = 8192;
 
 Error system_error(const char* doing, const std::filesystem::path& path, int code) {
   return Error{fmt::format("can't {} {}: {}", doing, path.string(), std::strerror(code))};
 }
 
-Result<std::vector<std::uint8_t>> read_bytes(const std::filesystem::path& path) {
+Status read_bytes(const std::filesystem::path& path, std::vector<std::uint8_t>& bytes) {
   std::error_code code;
   if (!std::filesystem::exists(path, code)) return system_error("read", path, ENOENT);
   if (!std::filesystem::is_regular_file(path, code)) return Error{fmt::format("{} is not a file", path.string())};
@@ -40,11 +36,11 @@ Result<std::vector<std::uint8_t>> read_bytes(const std::filesystem::path& path) 
   if (size > max_file_bytes) {
     return Error{fmt::format("{} has {} bytes; pictures of at most {} are read", path.string(), size, max_file_bytes)};
   }
-  const File file = open_file(path, "rb");
+  const File file{std::fopen(path.c_str(), "rb"), &std::fclose};
   if (!file) return system_error("read", path, errno);
-  std::vector<std::uint8_t> bytes(size);
+  bytes.resize(size);
   if (std::fread(bytes.data(), 1, bytes.size(), file.get()) != bytes.size()) return system_error("read", path, EIO);
-  return bytes;
+  return Done{};
 }
 
 // png_image owns memory until its reading or writing ends.
@@ -74,19 +70,40 @@ Status decode_png(std::span<const std::uint8_t> bytes, cv::Mat& bgr) {
   return Done{};
 }
 
+// Calls `write` with a file of another name and gives it its name when all went well.
+template <typename Write>
+Status write_file(const std::filesystem::path& path, Write write) {
+  const std::filesystem::path unfinished = path.string() + fmt::format(".{}.part", ::getpid());
+  File file{std::fopen(unfinished.c_str(), "wb"), &std::fclose};
+  if (!file) return system_error("write", path, errno);
+  Status written = write(file.get());
+  if (std::fclose(file.release()) != 0 && written) written = Error{std::strerror(errno)};
+  std::error_code code;
+  if (written) std::filesystem::rename(unfinished, path, code);
+  if (written && !code) return Done{};
+  std::error_code ignored;
+  std::filesystem::remove(unfinished, ignored);
+  return Error{fmt::format("can't write {}: {}", path.string(), code ? code.message() : written.error().message)};
+}
+
 }  // namespace
 
-Result<cv::Mat> read_picture(const std::filesystem::path& path) {
-  const auto bytes = read_bytes(path);
-  if (!bytes) return bytes.error();
-  cv::Mat bgr;
+Status PictureReader::read(const std::filesystem::path& path, cv::Mat& bgr) {
+  if (auto read = read_bytes(path, bytes_); !read) return read;
   Status decoded = Error{"neither a JPEG nor a PNG picture"};
-  if (bytes->size() >= 8 && png_sig_cmp(bytes->data(), 0, 8) == 0) {
-    decoded = decode_png(*bytes, bgr);
-  } else if (bytes->size() >= 2 && (*bytes)[0] == 0xFF && (*bytes)[1] == 0xD8) {
-    decoded = JpegDecoder{}.decode(*bytes, bgr);
+  if (bytes_.size() >= 8 && png_sig_cmp(bytes_.data(), 0, 8) == 0) {
+    decoded = decode_png(bytes_, bgr);
+  } else if (bytes_.size() >= 2 && bytes_[0] == 0xFF && bytes_[1] == 0xD8) {
+    decoded = jpeg_.decode(bytes_, bgr);
   }
   if (!decoded) return Error{fmt::format("{}: {}", path.string(), decoded.error().message)};
+  return Done{};
+}
+
+Result<cv::Mat> read_picture(const std::filesystem::path& path) {
+  cv::Mat bgr;
+  const Status read = PictureReader{}.read(path, bgr);
+  if (!read) return read.error();
   return bgr;
 }
 
@@ -99,23 +116,24 @@ Status write_png(const std::filesystem::path& path, const cv::Mat& picture) {
   png.image.height = static_cast<png_uint_32>(picture.rows);
   png.image.format = picture.channels() == 3 ? PNG_FORMAT_BGR : PNG_FORMAT_GRAY;
   png.image.flags = PNG_IMAGE_FLAG_FAST;
+  return write_file(path, [&](std::FILE* file) -> Status {
+    if (png_image_write_to_stdio(&png.image, file, 0, picture.data, static_cast<png_int_32>(picture.step), nullptr)) {
+      return Done{};
+    }
+    return Error{png.image.message};
+  });
+}
 
-  const std::filesystem::path unfinished = path.string() + fmt::format(".{}.part", ::getpid());
-  File file = open_file(unfinished, "wb");
-  if (!file) return system_error("write", path, errno);
-  const bool encoded = png_image_write_to_stdio(&png.image, file.get(), 0, picture.data,
-                                                static_cast<png_int_32>(picture.step), nullptr) != 0;
-  const bool flushed = std::fclose(file.release()) == 0;
-  const int reason = errno;
-  std::error_code code;
-  if (encoded && flushed) {
-    std::filesystem::rename(unfinished, path, code);
-    if (!code) return Done{};
+Status write_jpeg(const std::filesystem::path& path, const cv::Mat& picture, int quality) {
+  if (picture.empty() || picture.type() != CV_8UC3) {
+    return Error{fmt::format("can't write {}: there is no 8-bit BGR picture", path.string())};
   }
-  std::error_code ignored;
-  std::filesystem::remove(unfinished, ignored);
-  if (!encoded) return Error{fmt::format("can't write {}: {}", path.string(), png.image.message)};
-  return system_error("write", path, code ? code.value() : reason);
+  const Result<std::vector<std::uint8_t>> jpeg = encode_jpeg(picture, quality);
+  if (!jpeg) return Error{fmt::format("can't write {}: {}", path.string(), jpeg.error().message)};
+  return write_file(path, [&](std::FILE* file) -> Status {
+    if (std::fwrite(jpeg->data(), 1, jpeg->size(), file) == jpeg->size()) return Done{};
+    return Error{std::strerror(errno)};
+  });
 }
 
 }  // namespace telehug

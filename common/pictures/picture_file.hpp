@@ -1,12 +1,26 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <opencv2/core/mat.hpp>
+#include <vector>
 
 #include "common/result.hpp"
+#include "pictures/jpeg_decoder.hpp"
 
 namespace telehug {
+
+// Reads JPEG and PNG files one after the other with buffers that are kept. Not for use by two threads at a time.
+class PictureReader {
+ public:
+  // As read_picture(), into `bgr`, whose memory is kept if its size fits. After an error it holds no picture.
+  Status read(const std::filesystem::path& path, cv::Mat& bgr);
+
+ private:
+  JpegDecoder jpeg_;
+  std::vector<std::uint8_t> bytes_;
+};
 
 // Reads a JPEG or PNG file (its content decides, not its name) as CV_8UC3 BGR; transparent parts of a PNG become black.
 // Files of more than 64 MB and pictures of more than 8192 pixels a side are refused.
@@ -14,5 +28,8 @@ Result<cv::Mat> read_picture(const std::filesystem::path& path);
 
 // Writes CV_8UC3 BGR or CV_8UC1 grey as PNG. The file appears under its name when it is complete.
 Status write_png(const std::filesystem::path& path, const cv::Mat& picture);
+
+// Writes CV_8UC3 BGR as JPEG (4:2:0) of `quality` 1..100. The file appears under its name when it is complete.
+Status write_jpeg(const std::filesystem::path& path, const cv::Mat& picture, int quality = 92);
 
 }  // namespace telehug

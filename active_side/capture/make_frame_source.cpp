@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "capture/make_frame_source.hpp"
+
+#include <fmt/format.h>
+
+#include "capture/recording.hpp"
+#include "capture/virtual_rig/virtual_rig.hpp"
+#include "capture/webcam.hpp"
+
+namespace telehug {
+namespace {
+
+std::unique_ptr<FrameSource> webcam(std::string device, const CaptureSettings& settings, const Clock& clock) {
+  if (device.empty()) device = settings.device.empty() ? first_webcam_device() : settings.device;
+  return std::make_unique<Webcam>(WebcamSettings{device, settings.webcam_size, settings.webcam_fps}, clock);
+}
+
+std::unique_ptr<FrameSource> recording(std::string_view place, const CaptureSettings& settings, const Clock& clock) {
+  RecordingSettings recorded;
+  const auto question = place.rfind('?');
+  recorded.folder = place.substr(0, question);
+  if (question != std::string_view::npos) recorded.part = place.substr(question + 1);
+  recorded.real_time = settings.real_time;
+  recorded.loop = settings.loop;
+  return std::make_unique<Recording>(std::move(recorded), clock);
+}
+
+Result<std::unique_ptr<FrameSource>> virtual_rig(const CaptureSettings& settings, const Clock& clock) {
+  VirtualRigSettings rig = settings.virtual_rig;
+  rig.real_time = settings.real_time;
+  if (const Status checked = check_virtual_rig(rig); !checked) return checked.error();
+  return std::unique_ptr<FrameSource>(std::make_unique<VirtualRig>(std::move(rig), clock));
+}
+
+}  // namespace
+
+Result<std::unique_ptr<FrameSource>> make_frame_source(std::string_view spec, const CaptureSettings& settings,
+                                                       const Clock& clock) {
+  const auto colon = spec.find(':');
+  const std::string_view kind = spec.substr(0, colon);
+  const std::string_view rest = colon == std::string_view::npos ? std::string_view{} : spec.substr(colon + 1);
+  if (kind == "webcam") return webcam(std::string(rest), settings, clock);
+  if (kind == "replay" && !rest.empty()) return recording(rest, settings, clock);
+  if (spec == "virtual") return virtual_rig(settings, clock);
+  return Error{
+      fmt::format("'{}' is no source of pictures; sources are webcam, webcam:DEVICE, replay:DIR, "
+                  "replay:DIR?PART (frames, hard or sequence) and virtual",
+                  spec)};
+}
+
+}  // namespace telehug

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <string>
+#include <string_view>
+
+#include "capture/frame_source.hpp"
+#include "capture/virtual_rig/settings.hpp"
+
+namespace telehug {
+
+struct CaptureSettings {
+  // Webcam: path of the device, best one under /dev/v4l/by-id; empty: the first webcam there, else /dev/video0.
+  std::string device;
+  ImageSize webcam_size{1280, 720};  // the nearest size that the webcam offers is taken
+  double webcam_fps = 30;
+
+  // Recording and virtual rig.
+  bool real_time = true;           // false: as fast as pictures are read
+  bool loop = false;               // recording: begin again after the last picture
+  VirtualRigSettings virtual_rig;  // its real_time is overridden by the one above
+};
+
+// The source that `spec` names:
+//   webcam               settings.device
+//   webcam:DEVICE        e.g. webcam:/dev/v4l/by-id/usb-...-video-index0
+//   replay:DIR           a recording (see rig_directory.hpp) or a folder of pictures
+//   replay:DIR?PART      its part "frames", "hard" or "sequence"
+//   virtual              the virtual rig
+// It is not open yet. Only a spec or settings that make no sense are errors here. `clock` must outlive the source.
+Result<std::unique_ptr<FrameSource>> make_frame_source(std::string_view spec, const CaptureSettings& settings,
+                                                       const Clock& clock);
+
+}  // namespace telehug

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <opencv2/core/matx.hpp>
+
+#include "common/units.hpp"
+
+namespace telehug {
+
+// A point of the rig frame, in mm: x and y as on the screen (right and down, as its user sees it), z out of the screen
+// towards the user. The screen's surface is z = 0.
+using RigPoint = cv::Vec3d;
+
+// Where the camera is and how it is turned. Without angles it looks straight down along the screen (its optical axis is
+// +y, the top of its picture points to the user).
+struct CameraPose {
+  RigPoint position_mm;
+  double pitch_deg = 0;  // > 0: turned towards the user
+  double yaw_deg = 0;    // > 0: turned towards the user's left
+  double roll_deg = 0;   // > 0: the picture turns clockwise
+};
+
+// A pinhole camera without distortion. For a point of the screen and a camera without angles it gives
+//   u = u0 - f (x - x0) / (y - y0),   v = v0 + f z0 / (y - y0)
+// with (x0, y0, z0) the camera's place: the picture is the user's view mirrored left to right.
+class PinholeCamera {
+ public:
+  PinholeCamera(const CameraPose& pose, double focal_px, ImageSize size);
+
+  // Only for points in front of the camera: depth_mm() > 0.
+  [[nodiscard]] ImagePoint project(const RigPoint& point) const;
+
+  // Distance of a point from the camera along its optical axis.
+  [[nodiscard]] double depth_mm(const RigPoint& point) const { return in_camera(point)[2]; }
+
+  // Direction, not normalised, in which a pixel looks. It is linear in u and v.
+  [[nodiscard]] RigPoint ray(double u_px, double v_px) const;
+
+  [[nodiscard]] const RigPoint& position_mm() const noexcept { return position_mm_; }
+  [[nodiscard]] double focal_px() const noexcept { return focal_px_; }
+  [[nodiscard]] ImageSize size() const noexcept { return size_; }
+
+ private:
+  [[nodiscard]] cv::Vec3d in_camera(const RigPoint& point) const { return camera_of_rig_ * (point - position_mm_); }
+
+  RigPoint position_mm_;
+  cv::Matx33d camera_of_rig_;  // camera frame: u right, v down, w along the optical axis
+  double focal_px_;
+  ImageSize size_;
+  double u0_px_;
+  double v0_px_;
+};
+
+}  // namespace telehug

@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "capture/virtual_rig/virtual_rig.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <opencv2/imgproc.hpp>
+#include <stdexcept>
+#include <utility>
+
+namespace telehug {
+namespace {
+
+constexpr double dot_mm = 10;
+constexpr double margin_px = 8;  // a calibration point must lie this far inside the picture
+
+VirtualRigSettings completed(VirtualRigSettings settings) {
+  if (settings.script.touches.empty()) settings.script = default_script(settings.screen);
+  const Status checked = check_virtual_rig(settings);
+  if (!checked) throw std::invalid_argument(checked.error().message);
+  settings.screen_picture = settings.screen_picture.clone();
+  return settings;
+}
+
+cv::Mat plain(const ScreenSize& screen, uchar level) {
+  return {screen.height_px, screen.width_px, CV_8UC3, cv::Scalar::all(level)};
+}
+
+}  // namespace
+
+Status check_virtual_rig(const VirtualRigSettings& s) {
+  const auto within = [](double value, double low, double high) { return value >= low && value <= high; };
+  if (!within(s.screen.width_mm, 50, 5000) || !within(s.screen.height_mm, 50, 5000)) {
+    return Error{"virtual rig: the screen must be 50 to 5000 mm wide and high"};
+  }
+  if (s.screen.width_px < 1 || s.screen.height_px < 1 || s.screen.width_px > 8192 || s.screen.height_px > 8192) {
+    return Error{"virtual rig: the screen must have 1 to 8192 pixels a side"};
+  }
+  if (s.image.width_px < 64 || s.image.height_px < 64 || s.image.width_px > 8192 || s.image.height_px > 8192) {
+    return Error{"virtual rig: the picture must have 64 to 8192 pixels a side"};
+  }
+  if (!within(s.focal_px, 50, 50'000)) return Error{"virtual rig: focal_px must be 50 to 50000"};
+  if (!within(s.fps, 0.1, 1000)) return Error{"virtual rig: fps must be 0.1 to 1000"};
+  if (!within(s.bezel_mm, 0, 500) || !within(s.desk_below_mm, 10, 2000)) {
+    return Error{"virtual rig: bezel_mm must be 0 to 500, desk_below_mm 10 to 2000"};
+  }
+  if (s.skin_tone < 1 || s.skin_tone > 6) return Error{"virtual rig: skin_tone must be 1 to 6 (Fitzpatrick)"};
+  if (!within(s.mirror, 0, 1)) return Error{"virtual rig: mirror must be 0 to 1"};
+  if (!within(s.noise_sd, 0, 50)) return Error{"virtual rig: noise_sd must be 0 to 50"};
+  if (!within(s.camera.position_mm[2], 1, 1000) || !within(s.camera.position_mm[1], -1000, 0)) {
+    return Error{"virtual rig: the camera must be 1 to 1000 mm in front of the screen, at its upper edge or above"};
+  }
+  for (const double angle : {s.camera.pitch_deg, s.camera.yaw_deg, s.camera.roll_deg}) {
+    if (!within(angle, -30, 30)) return Error{"virtual rig: the camera's angles must be -30 to 30 degrees"};
+  }
+  if (!s.screen_picture.empty() && s.screen_picture.type() != CV_8UC3) {
+    return Error{"virtual rig: the screen's picture must be 8-bit BGR"};
+  }
+  double free_from_s = 0;
+  for (const ScriptedTouch& touch : s.script.touches) {
+    if (!(touch.begin_s - approach_s >= free_from_s) || !(touch.end_s >= touch.begin_s)) {
+      return Error{
+          fmt::format("virtual rig: the touch at {} s begins before the one before it is over", touch.begin_s)};
+    }
+    for (const ScreenPoint& p : {touch.from, touch.to}) {
+      if (!within(p.x_mm, 0, s.screen.width_mm) || !within(p.y_mm, 0, s.screen.height_mm)) {
+        return Error{fmt::format("virtual rig: the touch at {} s is not on the screen", touch.begin_s)};
+      }
+    }
+    free_from_s = touch.end_s + approach_s;
+  }
+  if (!s.script.touches.empty() && !(s.script.length_s >= free_from_s)) {
+    return Error{"virtual rig: the script is over before its last touch"};
+  }
+  return Done{};
+}
+
+VirtualRig::VirtualRig(VirtualRigSettings settings, const Clock& clock, SleepUntil sleep)
+    : settings_(completed(std::move(settings))), clock_(clock), sleep_(std::move(sleep)), renderer_(settings_) {}
+
+Status VirtualRig::open() {
+  if (open_) return Done{};
+  open_ = true;
+  start_ = clock_.now();
+  return Done{};
+}
+
+void VirtualRig::close() {
+  open_ = false;
+  first_sequence_ = next_;
+}
+
+Duration VirtualRig::offset(std::uint64_t sequence) const {
+  const std::chrono::duration<double> seconds(static_cast<double>(sequence - first_sequence_) / settings_.fps);
+  return std::chrono::duration_cast<Duration>(seconds);
+}
+
+ReadOutcome VirtualRig::read(Frame& frame, Duration timeout) {
+  const Timestamp deadline = clock_.now() + timeout;
+  if (!open_) {
+    last_error_ = "the virtual rig is closed";
+    wait_until(deadline, deadline, clock_, sleep_);
+    return ReadOutcome::lost;
+  }
+  if (!settings_.repeat && static_cast<double>(next_) / settings_.fps > settings_.script.length_s) {
+    return ReadOutcome::ended;
+  }
+  if (settings_.real_time) {
+    if (!wait_until(start_ + offset(next_), deadline, clock_, sleep_)) return ReadOutcome::timeout;
+    const std::chrono::duration<double> late = clock_.now() - (start_ + offset(next_));
+    next_ += static_cast<std::uint64_t>(late.count() * settings_.fps);  // as with a webcam the newest frame wins
+  }
+  renderer_.draw(finger(next_), next_, frame.bgr);
+  frame.sequence = next_;
+  frame.time = start_ + offset(next_);
+  ++next_;
+  return ReadOutcome::frame;
+}
+
+std::optional<FingerPlace> VirtualRig::finger(std::uint64_t sequence) const {
+  const double time_s = static_cast<double>(sequence) / settings_.fps;
+  return finger_at(settings_.script, settings_.repeat ? std::fmod(time_s, settings_.script.length_s) : time_s);
+}
+
+VirtualTruth VirtualRig::truth(std::uint64_t sequence) const {
+  const auto place = finger(sequence);
+  if (!place) return {};
+  if (place->hover_mm > 0) return {false, place->foot, place->hover_mm};
+  return {true, place->foot, std::nullopt};
+}
+
+cv::Mat VirtualRig::picture_of(const cv::Mat& shown, const std::optional<FingerPlace>& finger) {
+  VirtualRigSettings with_this = settings_;
+  with_this.screen_picture = shown;
+  cv::Mat bgr;
+  RigRenderer(with_this).draw(finger, ~calibration_pictures_++, bgr);
+  return bgr;
+}
+
+cv::Mat VirtualRig::picture_of_background() {
+  return picture_of(plain(settings_.screen, 0), std::nullopt);
+}
+
+cv::Mat VirtualRig::picture_of_triangle() {
+  cv::Mat shown = plain(settings_.screen, 255);
+  const int width = shown.cols;
+  const int height = shown.rows;
+  const std::vector<cv::Point> corners{
+      {width / 2, height - 1}, {width * 2 / 5, height / 2}, {width * 3 / 5, height / 2}};
+  cv::fillConvexPoly(shown, corners, cv::Scalar::all(0), cv::LINE_AA);
+  return picture_of(shown, std::nullopt);
+}
+
+cv::Mat VirtualRig::picture_of_touch(const ScreenPoint& point) {
+  cv::Mat shown = plain(settings_.screen, 0);
+  const double x_px_per_mm = shown.cols / settings_.screen.width_mm;
+  const double y_px_per_mm = shown.rows / settings_.screen.height_mm;
+  cv::ellipse(shown,
+              {cv::Point2f(static_cast<float>(point.x_mm * x_px_per_mm), static_cast<float>(point.y_mm * y_px_per_mm)),
+               cv::Size2f(static_cast<float>(dot_mm * x_px_per_mm), static_cast<float>(dot_mm * y_px_per_mm)), 0},
+              cv::Scalar::all(255), cv::FILLED, cv::LINE_AA);
+  return picture_of(shown, FingerPlace{point, 0});
+}
+
+std::vector<ScreenPoint> calibration_points(const VirtualRigSettings& settings) {
+  const double width_mm = settings.screen.width_mm;
+  const double height_mm = settings.screen.height_mm;
+  std::vector<ScreenPoint> wanted{{0.5 * width_mm, 0.66 * height_mm}, {0.5 * width_mm + 30, 0.86 * height_mm}};
+  for (const auto& [x, y] :
+       {std::pair{0.41, 0.53}, {0.63, 0.53}, {0.24, 0.72}, {0.77, 0.72}, {0.18, 0.87}, {0.74, 0.87}, {0.34, 0.93}}) {
+    wanted.push_back({x * width_mm, y * height_mm});
+  }
+  const PinholeCamera camera(settings.camera, settings.focal_px, settings.image);
+  std::erase_if(wanted, [&](const ScreenPoint& point) {
+    const ImagePoint p = camera.project({point.x_mm, point.y_mm, 0});
+    return p.u_px < margin_px || p.v_px < margin_px || p.u_px > settings.image.width_px - margin_px ||
+           p.v_px > settings.image.height_px - margin_px;
+  });
+  return wanted;
+}
+
+}  // namespace telehug
