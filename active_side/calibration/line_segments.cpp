@@ -8,8 +8,8 @@
 namespace telehug {
 namespace {
 
-// Chosen on both sample rigs: below these, noise and the grain of a desk bend the lines; above, a black bezel's edge on a
-// black screen is lost.
+// Chosen on both sample rigs: below these, noise and the grain of a desk bend the lines; above, a black bezel's edge on
+// a black screen is lost.
 constexpr double canny_low = 25;
 constexpr double canny_high = 75;
 constexpr int hough_votes = 60;

@@ -24,6 +24,10 @@ constexpr double triangle_least_length_px = 50;
 // How far from a line the intersection of the triangle's edges may lie.
 constexpr double vertex_limit_px = 12;
 
+// Noise breaks lines up: lengths that differ by less than this part are equal. Of equal lines the lowest is taken,
+// since keyboards, desk edges and the bezel's upper edge all lie above the screen's own in the picture.
+constexpr double equal_length_part = 0.1;
+
 double distance_px(const BorderLine& line, const ImagePoint& point) {
   return std::abs(point.v_px - line.v_at(point.u_px));
 }
@@ -143,6 +147,16 @@ const LevelLine* line_at_triangle(const std::vector<LineSegment>& segments, cons
   return best;
 }
 
+// `lines` is sorted, the longest first, and not empty.
+const LevelLine* longest_line(const std::vector<LevelLine>& lines, double middle_u_px) {
+  const LevelLine* lowest = &lines.front();
+  for (const LevelLine& line : lines) {
+    if (line.length_px < (1 - equal_length_part) * lines.front().length_px) break;
+    if (line.line.v_at(middle_u_px) > lowest->line.v_at(middle_u_px)) lowest = &line;
+  }
+  return lowest;
+}
+
 }  // namespace
 
 std::vector<LevelLine> find_level_lines(const cv::Mat& bgr) {
@@ -160,15 +174,13 @@ Result<ScreenBorder> find_screen_border(const cv::Mat& bgr, BorderChoice choice)
                     "the camera look straight down along the screen and light the desk",
                     lines.empty() ? 0.0 : lines.front().length_px, bgr.cols)};
   }
-  const LevelLine* line = &lines.front();
-  if (choice == BorderChoice::triangle) {
-    line = line_at_triangle(segments, lines, least_length_px);
-    if (line == nullptr) {
-      return Error{
-          fmt::format("none of {} level lines carries the triangle's vertex: show the triangle with its point "
-                      "on the screen's bottom edge, in the camera's view",
-                      lines.size())};
-    }
+  const LevelLine* const line = choice == BorderChoice::triangle ? line_at_triangle(segments, lines, least_length_px)
+                                                                 : longest_line(lines, 0.5 * bgr.cols);
+  if (line == nullptr) {
+    return Error{fmt::format(
+        "none of {} level lines carries the triangle's vertex: show the triangle with its point on the screen's bottom "
+        "edge, in the camera's view",
+        lines.size())};
   }
   return ScreenBorder{line->line, line->length_px};
 }

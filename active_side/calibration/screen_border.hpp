@@ -24,7 +24,8 @@ struct LevelLine {
 
 enum class BorderChoice {
   triangle,  // the picture shows a black triangle with one vertex on the screen's bottom edge: it picks the line
-  longest,   // no triangle: the longest line. May be another edge of the bezel than the screen's own
+  longest,   // no triangle: the longest line, the lowest of those equally long. May be another edge than the
+             // screen's own: in one sample it is the bezel's mirror image, 9 px below
 };
 
 struct ScreenBorder {

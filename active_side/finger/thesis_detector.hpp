@@ -32,8 +32,9 @@ struct ThesisOptions {
   // Grey levels between neighbouring groups of columns. Shading, noise and reflections on an untouched bezel stay
   // below.
   double least_edge_step = 12;
-  // A fingertip widens by 1 or 2 px a row behind its end; shadows and mirror images that join it jump.
-  int width_jump_px = 8;
+  // Well above what noise and shading change from row to row, well below the width of a shadow or mirror image that
+  // joins the finger (both samples: calibration and touches are found alike from 10 to 20).
+  int width_jump_px = 12;
 };
 
 class ThesisDetector {
