@@ -46,12 +46,13 @@ inline void write_ports(const PortImage& motors, bool armed) {
 }
 
 inline void init() {
+  // INT0 and INT1 stay disabled. Set to falling edge all the same, and before the pins go low: simavr polls
+  // level-triggered ones in every cycle.
+  EICRA = (1 << ISC11) | (1 << ISC01);
   write_ports({0, 0, 0}, false);
   DDRB = motor_pins.b | armed_led;
   DDRC = motor_pins.c;
   DDRD = motor_pins.d;
-  // INT0 and INT1 stay disabled; set to falling edge only because simavr polls level-triggered ones every cycle.
-  EICRA = (1 << ISC11) | (1 << ISC01);
 }
 
 }  // namespace board

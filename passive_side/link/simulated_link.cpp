@@ -83,7 +83,10 @@ SimulatedLink::~SimulatedLink() {
 
 void SimulatedLink::poll(Timestamp now) {
   reap(now);
-  if (child_ == 0 && now >= start_at_) start();
+  if (child_ == 0 && now >= start_at_) {
+    start_at_ = now + restart_pause;
+    start();
+  }
   serial_.poll(now);
 }
 

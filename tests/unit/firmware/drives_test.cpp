@@ -4,6 +4,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "unit/firmware/virtual_jacket.hpp"
 
 namespace telehug {
@@ -194,7 +197,8 @@ TEST(FirmwareDrives, AreStrongerTheHigherTheIntensity) {
     const auto from = jacket.chip.cycle();
     jacket.chip.run_cycles(10 * 15872);  // ten periods of 992 us
     const double duty = jacket.duty_since(from, 9);
-    EXPECT_NEAR(duty, intensity / 255.0, 0.02) << "intensity " << intensity;
+    const double level = std::max(1.0, std::round(intensity * 31 / 255.0));
+    EXPECT_NEAR(duty, level / 31, 0.004) << "intensity " << intensity;
     EXPECT_GE(duty, before - 0.001) << "intensity " << intensity;
     before = duty;
   }

@@ -1,0 +1,5 @@
+# SPDX-License-Identifier: Apache-2.0
+telehug_test(test_serial_link KIND integration SUBJECT jacket
+  SOURCES integration/link/serial_link_test.cpp
+  DEPS passive_link)
+add_dependencies(test_serial_link telehug-jacket-sim)
