@@ -18,12 +18,13 @@
 #include "jacket/drive.hpp"
 #include "jacket/jacket_profile.hpp"
 #include "link/jacket_link.hpp"
+#include "link/protocol.hpp"
 #include "safety/intensity.hpp"
 
 namespace telehug {
 
 // The microcontroller turns a motor off by itself after at most this long.
-inline constexpr Duration longest_command = 250ms;
+inline constexpr Duration longest_command = std::chrono::milliseconds(protocol::drive_max_ms);
 
 struct SafetyLimits {
   double max_strength = 1;             // of full power, 0..1, for all actuators

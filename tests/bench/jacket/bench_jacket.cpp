@@ -23,16 +23,16 @@ namespace {
 std::size_t allocations = 0;
 }  // namespace
 
-// Every allocation of the program is counted.
-void* operator new(std::size_t size) {
+// Every allocation of the program is counted. Not inlined: g++ would then see free() paired with new.
+[[gnu::noinline]] void* operator new(std::size_t size) {
   ++allocations;
   if (void* memory = std::malloc(size)) return memory;
   throw std::bad_alloc{};
 }
-void operator delete(void* memory) noexcept {
+[[gnu::noinline]] void operator delete(void* memory) noexcept {
   std::free(memory);
 }
-void operator delete(void* memory, std::size_t) noexcept {
+[[gnu::noinline]] void operator delete(void* memory, std::size_t) noexcept {
   std::free(memory);
 }
 

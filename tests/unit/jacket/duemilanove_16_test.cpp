@@ -19,8 +19,8 @@ namespace {
 using ::testing::ElementsAre;
 using ::testing::IsEmpty;
 
-constexpr int full = 204;  // 0.8 of 255
-constexpr int least = 90;  // 0.35 of 255, rounded up
+constexpr int full = 197;  // step 24 of 31: the last within 0.8
+constexpr int least = 90;  // step 11 of 31: the first from 0.35 on
 
 JacketProfile shipped() {
   auto profile = load_jacket_profile(TELEHUG_SOURCE "/deploy/jackets/duemilanove-16.toml");
@@ -51,13 +51,13 @@ std::string commands_for(const Contact& contact) {
 
 TEST(Duemilanove16, drives_exactly_the_motors_of_each_box) {
   const std::map<int, std::string> golden{
-      {1, "0=204 200ms"},   {2, "1=204 200ms"},   {3, "1=204 200ms, 2=204 200ms"},
-      {4, "2=204 200ms"},   {5, "3=204 200ms"},   {6, "4=204 200ms"},
-      {7, "5=204 200ms"},   {8, "6=204 200ms"},   {9, "7=204 200ms"},
-      {10, "8=204 200ms"},  {11, "9=204 200ms"},  {12, "10=204 200ms"},
-      {13, "11=204 200ms"}, {14, "12=204 200ms"}, {15, "13=204 200ms"},
-      {16, "9=204 200ms"},  {17, "14=204 200ms"}, {18, "14=204 200ms, 15=204 200ms"},
-      {19, "15=204 200ms"}, {20, "13=204 200ms"},
+      {1, "0=197 200ms"},   {2, "1=197 200ms"},   {3, "1=197 200ms, 2=197 200ms"},
+      {4, "2=197 200ms"},   {5, "3=197 200ms"},   {6, "4=197 200ms"},
+      {7, "5=197 200ms"},   {8, "6=197 200ms"},   {9, "7=197 200ms"},
+      {10, "8=197 200ms"},  {11, "9=197 200ms"},  {12, "10=197 200ms"},
+      {13, "11=197 200ms"}, {14, "12=197 200ms"}, {15, "13=197 200ms"},
+      {16, "9=197 200ms"},  {17, "14=197 200ms"}, {18, "14=197 200ms, 15=197 200ms"},
+      {19, "15=197 200ms"}, {20, "13=197 200ms"},
   };
   for (const auto& [box, commands] : golden)
     EXPECT_EQ(commands_for(contact_in(box)), commands) << "box " << box;
@@ -66,11 +66,11 @@ TEST(Duemilanove16, drives_exactly_the_motors_of_each_box) {
 TEST(Duemilanove16, sends_a_touch_below_its_last_row_to_the_nearest_motor) {
   Contact below = contact_in(22);
   below.grid = {5, 6};
-  EXPECT_EQ(commands_for(below), "14=204 200ms");
+  EXPECT_EQ(commands_for(below), "14=197 200ms");
 }
 
 TEST(Duemilanove16, spreads_strength_between_the_least_that_turns_and_the_most_allowed) {
-  const std::map<double, int> golden{{0.0, 0}, {0.001, least}, {0.25, 119}, {0.5, 147}, {1.0, full}, {7.0, full}};
+  const std::map<double, int> golden{{0.0, 0}, {0.001, least}, {0.25, 115}, {0.5, 148}, {1.0, full}, {7.0, full}};
   for (const auto& [strength, intensity] : golden) {
     Contact touch = contact_in(8);
     touch.strength = strength;

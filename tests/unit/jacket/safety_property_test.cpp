@@ -61,6 +61,11 @@ JacketProfile random_profile(Adversary& adversary) {
   return profile;
 }
 
+// What the microcontroller makes of an intensity (passive_side/firmware/motors.cpp): the nearest of 31 steps.
+double power_at_pin(std::uint8_t intensity) {
+  return (intensity * 31 + 127) / 255 / 31.0;
+}
+
 // A daemon that lives through everything that can happen to it, on a fake clock, checked at every step.
 class HauntedJacket {
  public:
@@ -176,7 +181,8 @@ class HauntedJacket {
       ASSERT_LT(command.channel, 16);
       EXPECT_FALSE(seen.at(command.channel)) << "a channel is commanded twice in one frame";
       seen.at(command.channel) = true;
-      EXPECT_LE(command.intensity, most_.at(command.channel) * 255 + 1e-6) << "channel " << int{command.channel};
+      EXPECT_LE(power_at_pin(command.intensity), most_.at(command.channel) + 1e-6)
+          << "channel " << int{command.channel};
       EXPECT_GE(command.duration, 0ms);
       EXPECT_LE(command.duration, 250ms);
       EXPECT_LE(command.duration, limits_.longest_drive);

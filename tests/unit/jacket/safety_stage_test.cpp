@@ -70,9 +70,9 @@ TEST_F(SafetyStageTest, drives_what_it_is_told_at_once) {
 
 TEST_F(SafetyStageTest, spreads_strength_over_what_the_actuator_may_do) {
   drive(2, 1);
-  EXPECT_EQ(intensity(1), 102);  // 0.4 * 255
+  EXPECT_EQ(intensity(1), 99);  // step 12 of 31: the last within 0.4
   drive(2, 0.001);
-  EXPECT_EQ(intensity(1), 51);  // 0.2 * 255
+  EXPECT_EQ(intensity(1), 58);  // step 7 of 31: the first from 0.2 on
   drive(2, 0);
   EXPECT_EQ(intensity(1), 0);
 }
@@ -81,8 +81,8 @@ TEST_F(SafetyStageTest, keeps_the_limit_for_all_below_that_of_the_actuator) {
   start({.max_strength = 0.3});
   drive(1);
   drive(2);
-  EXPECT_EQ(intensity(0), 76);  // 0.3 * 255
-  EXPECT_EQ(intensity(1), 76);
+  EXPECT_EQ(intensity(0), 74);  // step 9 of 31: the last within 0.3
+  EXPECT_EQ(intensity(1), 74);
 }
 
 TEST_F(SafetyStageTest, answers_limited_if_the_limits_leave_nothing_that_turns_the_motor) {
@@ -177,6 +177,17 @@ TEST_F(SafetyStageTest, mends_a_lost_frame_within_60_ms) {
   EXPECT_THAT(running(), IsEmpty());
 }
 
+TEST_F(SafetyStageTest, renews_before_a_command_runs_out_though_the_sender_vouched_for_it_only_lately) {
+  start({.longest_drive = 2s, .heartbeat_timeout = 120ms});
+  drive(1, 1, 2s);
+  for (int step = 1; step <= 50; ++step) {
+    now += 20ms;
+    ASSERT_THAT(running(), ElementsAre(0)) << step;
+    if (step % 5 == 0) safety->on_heartbeat(now);
+    safety->tick(now);
+  }
+}
+
 TEST_F(SafetyStageTest, is_off_without_the_senders_heartbeat) {
   start({.longest_drive = 2s});
   drive(1, 1, 2s);
@@ -246,6 +257,11 @@ TEST_F(SafetyStageTest, answers_jacket_absent_while_there_is_none) {
   live(10ms);
   EXPECT_EQ(drive(1), FeltOutcome::jacket_absent);
   EXPECT_THAT(safety->running(), IsEmpty());
+}
+
+TEST_F(SafetyStageTest, answers_jacket_absent_as_soon_as_the_link_says_so_even_to_no_drives) {
+  jacket.status.state = LinkState::absent;
+  EXPECT_EQ(safety->apply({}, now).outcome, FeltOutcome::jacket_absent);
 }
 
 TEST_F(SafetyStageTest, answers_jacket_absent_when_the_link_refuses_the_frame) {
