@@ -8,7 +8,7 @@
 # (USES_FASTDDS) its namespace is poisoned, so that its headers do not compile either.
 
 set(TELEHUG_WARNINGS -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wsign-conversion -Wnon-virtual-dtor
-    -Wold-style-cast -Woverloaded-virtual -Wnull-dereference -Wduplicated-cond -Wlogical-op -Werror)
+    -Wold-style-cast -Woverloaded-virtual -Wduplicated-cond -Wlogical-op -Werror)
 
 find_program(CCACHE ccache)
 if(CCACHE)

@@ -24,7 +24,8 @@ DdsSettings dds_settings(const PeerConfig& config) {
 
 ControlServerOptions control_options(const ControlConfig& config) {
   ControlServerOptions options;
-  options.socket = config.socket.empty() ? default_control_socket(Side::passive) : config.socket;
+  options.socket = config.socket;
+  if (config.socket.empty()) options.socket = default_control_socket(Side::passive);
   options.group = config.group;
   return options;
 }

@@ -6,7 +6,7 @@
 #include "commands/command.hpp"
 #include "eval/error_table.hpp"
 #include "eval/touch_eval.hpp"
-#include "eval_face/face_evaluation.hpp"
+#include "eval_face/eval_face.hpp"
 
 namespace telehug {
 namespace {

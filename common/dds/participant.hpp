@@ -2,17 +2,11 @@
 #pragma once
 
 #include <memory>
-#include <stdexcept>
 
+#include "dds/dds_error.hpp"
 #include "dds/settings.hpp"
 
 namespace telehug {
-
-// DDS can't be set up on this PC; what() is a sentence.
-class DdsError : public std::runtime_error {
- public:
-  using std::runtime_error::runtime_error;
-};
 
 // One program's membership in the DDS domain. UDPv4 only; discovery by multicast and, on loopback, without it.
 // Readers and writers keep what they need of it alive, so the order of destruction is free. Create them from one

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "dds/participant_number.hpp"
+#include "dds/dds_error.hpp"
 
 #include <bitset>
 #include <mutex>

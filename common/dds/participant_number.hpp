@@ -14,7 +14,7 @@ inline constexpr std::size_t max_loopback_participants = 10;
 // discovery without multicast tries. Ports that another program holds don't matter here: Fast DDS moves on by itself.
 class ParticipantNumber {
  public:
-  // Throws std::runtime_error if all are used.
+  // Throws DdsError if all are used.
   ParticipantNumber();
   ~ParticipantNumber();
   ParticipantNumber(const ParticipantNumber&) = delete;

@@ -25,7 +25,7 @@ class Reader {
   // must only hand over (LatestSlot and the like), must not throw, and must not destroy this reader.
   using Callback = std::function<void(const T&)>;
 
-  // Throws std::runtime_error with a sentence. Messages may come in before this returns.
+  // Throws DdsError with a sentence. Messages may come in before this returns.
   Reader(DdsParticipant& participant, Callback callback);
   // After this the callback is not called any more.
   ~Reader();

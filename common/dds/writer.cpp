@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "dds/dds_error.hpp"
 #include "dds/writer.hpp"
 
 #include <fmt/format.h>

@@ -12,7 +12,7 @@ namespace telehug {
 template <typename T>
 class Writer {
  public:
-  // Throws std::runtime_error with a sentence.
+  // Throws DdsError with a sentence.
   explicit Writer(DdsParticipant& participant);
   ~Writer();
   Writer(const Writer&) = delete;
