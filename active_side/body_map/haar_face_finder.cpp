@@ -5,11 +5,10 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <cmath>
+#include <iterator>
 #include <opencv2/imgproc.hpp>
 #include <opencv2/objdetect.hpp>
 #include <system_error>
-#include <utility>
 
 namespace telehug {
 namespace fs = std::filesystem;
@@ -38,7 +37,7 @@ cv::Rect2d calibrated(const cv::Rect& square, double px_per_search_px) {
 
 class HaarFaceFinder final : public FaceFinder {
  public:
-  explicit HaarFaceFinder(cv::CascadeClassifier cascade) : cascade_(std::move(cascade)) {}
+  explicit HaarFaceFinder(const cv::CascadeClassifier& cascade) : cascade_(cascade) {}  // shares the loaded cascade
 
   [[nodiscard]] std::string name() const override { return "Haar"; }
 
@@ -112,7 +111,7 @@ Result<std::unique_ptr<FaceFinder>> make_haar_face_finder(const std::vector<fs::
   if (!loaded) {
     return Error{fmt::format("{} is not a face cascade; install the package opencv-data again.", found->string())};
   }
-  return std::unique_ptr<FaceFinder>(std::make_unique<HaarFaceFinder>(std::move(cascade)));
+  return std::unique_ptr<FaceFinder>(std::make_unique<HaarFaceFinder>(cascade));
 }
 
 }  // namespace telehug
