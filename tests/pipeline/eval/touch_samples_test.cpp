@@ -1,0 +1,237 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The thesis' algorithm on pictures of two rigs: the fixtures always, the whole samples where they lie beside the
+// project (../shared/touch-samples).
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <stdlib.h>
+
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "calibration/calibration_file.hpp"
+#include "calibration/screen_border.hpp"
+#include "capture/rig_directory.hpp"
+#include "eval/error_table.hpp"
+#include "eval/rig_calibration.hpp"
+#include "eval/touch_eval.hpp"
+#include "finger/thesis_detector.hpp"
+#include "pictures/picture_file.hpp"
+
+namespace telehug {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+using testing::MatchesRegex;
+using testing::StartsWith;
+
+std::vector<fs::path> sample_folders() {
+  std::vector<fs::path> folders{TELEHUG_FIXTURES};
+  const fs::path whole = TELEHUG_SOURCE "/../shared/touch-samples";
+  if (fs::exists(whole / "rig1")) folders.push_back(whole);
+  return folders;
+}
+
+std::string folder_name(const testing::TestParamInfo<fs::path>& info) {
+  return info.index == 0 ? "Fixtures" : "WholeSamples";
+}
+
+std::vector<std::string> lines_of(const fs::path& file) {
+  std::ifstream stream(file);
+  std::vector<std::string> lines;
+  for (std::string line; std::getline(stream, line);)
+    lines.push_back(line);
+  return lines;
+}
+
+class Folder {
+ public:
+  Folder() {
+    std::string name = (fs::temp_directory_path() / "telehug-eval-XXXXXX").string();
+    path_ = ::mkdtemp(name.data());
+  }
+  ~Folder() { fs::remove_all(path_); }
+  Folder(const Folder&) = delete;
+  Folder& operator=(const Folder&) = delete;
+  [[nodiscard]] fs::path operator/(const char* name) const { return path_ / name; }
+
+ private:
+  fs::path path_;
+};
+
+class TouchSamples : public testing::TestWithParam<fs::path> {
+ protected:
+  static EvalTouchReport eval(const EvalTouchOptions& options) {
+    auto report = eval_touch(options);
+    if (!report) throw std::runtime_error(report.error().message);
+    return *std::move(report);
+  }
+
+  static EvalTouchOptions options(const char* rig, const char* part) {
+    EvalTouchOptions options;
+    options.rig = GetParam() / rig;
+    options.part = part;
+    options.detector = "thesis";
+    options.model = "thesis";
+    return options;
+  }
+};
+
+// The lines were read off pictures with a white screen.
+TEST_P(TouchSamples, ShowTheBorderInBothRigs) {
+  const auto picture1 = read_picture(GetParam() / "rig1" / "background.jpg");
+  const auto picture2 = read_picture(GetParam() / "rig2" / "background.jpg");
+  ASSERT_TRUE(picture1.ok() && picture2.ok());
+  const auto border1 = find_screen_border(*picture1, BorderChoice::longest);
+  const auto border2 = find_screen_border(*picture2, BorderChoice::longest);
+  ASSERT_TRUE(border1.ok() && border2.ok());
+  // In rig 1 the screen is a mirror and black: the longest line is the mirror image of the bezel.
+  EXPECT_NEAR(border1->line.v_at(640), 523.8, 10);
+  EXPECT_NEAR(border1->line.slope, 0.0074, 0.003);
+  EXPECT_NEAR(border2->line.v_at(640), 543.4, 1.5);
+  EXPECT_NEAR(border2->line.slope, -0.018, 0.002);
+}
+
+TEST_P(TouchSamples, CalibrateBothRigsWithTwoTouches) {
+  for (const char* name : {"rig1", "rig2"}) {
+    const auto rig = open_rig_directory(GetParam() / name);
+    ASSERT_TRUE(rig.ok()) << rig.error().message;
+    const auto calibration = calibrate_from_recording(*rig, {}, "2026-01-01T00:00:00Z");
+    ASSERT_TRUE(calibration.ok()) << calibration.error().message;
+    // The pictures are mirrored: right is the user's left.
+    EXPECT_LT(calibration->model.horizontal_scale_px(), 0);
+    const Folder folder;
+    ASSERT_TRUE(write_calibration(folder / "rig.toml", *calibration).ok());
+    const auto read = read_calibration(folder / "rig.toml");
+    ASSERT_TRUE(read.ok()) << read.error().message;
+    EXPECT_DOUBLE_EQ(read->model.camera_below_top_mm(), calibration->model.camera_below_top_mm());
+  }
+}
+
+TEST_P(TouchSamples, HoldASlidingFingerThatIsFound) {
+  const EvalTouchReport report = eval(options("rig2", "sequence"));
+  ASSERT_TRUE(report.score.has_value());
+  EXPECT_EQ(report.score->touches.size(), 10U);
+  std::size_t near = 0;
+  for (const ScoredTouch& touch : report.score->touches) {
+    near += touch.found && std::hypot(touch.vertical_error_mm, touch.horizontal_error_mm) <= near_enough_mm ? 1U : 0U;
+  }
+  EXPECT_GE(near, 9U) << format_error_table(report);
+}
+
+TEST_P(TouchSamples, HoldNoFingerWhereNothingCrossesTheBorder) {
+  for (const char* name : {"rig1", "rig2"}) {
+    const EvalTouchReport report = eval(options(name, "frames"));
+    for (const ScoredRest& rest : report.score->rests) {
+      if (rest.kind != "hover") {
+        EXPECT_EQ(rest.false_touches, 0U) << name << " " << rest.frame;
+      }
+    }
+  }
+}
+
+TEST_P(TouchSamples, AreFollowedFromTheBezelToTheTip) {
+  // Read off the picture: the fingertip ends at (662, 587), before the white dot's far edge at 597.
+  const auto picture = read_picture(GetParam() / "rig1" / "calibration" / "01.jpg");
+  ASSERT_TRUE(picture.ok());
+  ThesisDetector detector({519.1, 0.0074}, {picture->cols, picture->rows});
+  const Fingers& fingers = detector.detect(*picture);
+  ASSERT_EQ(fingers.size(), 1U);
+  EXPECT_NEAR(fingers[0].tip.u_px, 662, 8);
+  EXPECT_NEAR(fingers[0].tip.v_px, 588, 8);
+  EXPECT_NEAR(fingers[0].left_px, 632, 8);
+  EXPECT_NEAR(fingers[0].right_px, 700, 8);
+}
+
+TEST_P(TouchSamples, BecomeACsvWithOneRowAFingerAndOneAFrameWithout) {
+  const Folder folder;
+  EvalTouchOptions chosen = options("rig2", "frames");
+  chosen.out = folder / "touches.csv";
+  const EvalTouchReport report = eval(chosen);
+  const auto lines = lines_of(chosen.out);
+  ASSERT_EQ(lines.size(), report.found.size() + 1);  // the thesis finds one finger at most
+  EXPECT_EQ(lines[0], "frame,contact,x_mm,y_mm");
+  for (std::size_t i = 0; i < report.found.size(); ++i) {
+    EXPECT_THAT(lines[i + 1], StartsWith(report.found[i].frame + ","));
+    EXPECT_THAT(lines[i + 1], MatchesRegex("[0-9]+,(0,,|1,-?[0-9]+\\.[0-9][0-9],-?[0-9]+\\.[0-9][0-9])"));
+  }
+}
+
+TEST_P(TouchSamples, SayWhatDefaultStandsFor) {
+  EvalTouchOptions chosen = options("rig2", "frames");
+  chosen.detector = "default";
+  const std::string table = format_error_table(eval(chosen));
+  EXPECT_THAT(table, HasSubstr("detector default (thesis at present), model thesis"));
+}
+
+INSTANTIATE_TEST_SUITE_P(Both, TouchSamples, testing::ValuesIn(sample_folders()), folder_name);
+
+class WrongEvaluation : public testing::Test {
+ protected:
+  static std::string fault(const EvalTouchOptions& options) {
+    const auto report = eval_touch(options);
+    return report.ok() ? "it was evaluated" : report.error().message;
+  }
+
+  EvalTouchOptions options_ = [] {
+    EvalTouchOptions options;
+    options.rig = TELEHUG_FIXTURES "/rig2";
+    return options;
+  }();
+};
+
+TEST_F(WrongEvaluation, NamesTheUnknownChoice) {
+  options_.detector = "magic";
+  EXPECT_THAT(fault(options_), HasSubstr("--detector magic is unknown"));
+  options_.detector = "thesis";
+  options_.model = "magic";
+  EXPECT_THAT(fault(options_), HasSubstr("--model magic is unknown"));
+}
+
+TEST_F(WrongEvaluation, NamesTheMissingPart) {
+  options_.part = "hard";
+  EXPECT_THAT(fault(options_), HasSubstr("has no part \"hard\""));
+}
+
+TEST_F(WrongEvaluation, NamesTheMissingCalibrationTouch) {
+  options_.calibration = {1, 77};
+  EXPECT_THAT(fault(options_), HasSubstr("has no calibration touch 77"));
+}
+
+TEST_F(WrongEvaluation, WantsTwoCalibrationTouches) {
+  options_.calibration = {1, 2, 4};
+  EXPECT_THAT(fault(options_), HasSubstr("calibrated with 2 touches, not 3"));
+}
+
+TEST_F(WrongEvaluation, NamesTheFileThatCanNotBeWritten) {
+  options_.out = "/no/such/folder/touches.csv";
+  EXPECT_THAT(fault(options_), HasSubstr("can't write /no/such/folder/touches.csv"));
+}
+
+TEST_F(WrongEvaluation, NamesTheCalibrationPictureWithoutAFinger) {
+  const Folder folder;
+  fs::copy(options_.rig, folder / "rig", fs::copy_options::recursive);
+  fs::copy(folder / "rig/background.jpg", folder / "rig/calibration/02.jpg", fs::copy_options::overwrite_existing);
+  options_.rig = folder / "rig";
+  EXPECT_THAT(fault(options_), HasSubstr("calibration/02.jpg: no finger crosses"));
+}
+
+TEST_F(WrongEvaluation, GoesOnAfterADamagedPicture) {
+  const Folder folder;
+  fs::copy(options_.rig, folder / "rig", fs::copy_options::recursive);
+  fs::resize_file(folder / "rig/frames/012.jpg", 2000);
+  options_.rig = folder / "rig";
+  const auto report = eval_touch(options_);
+  ASSERT_TRUE(report.ok()) << report.error().message;
+  ASSERT_EQ(report->unreadable.size(), 1U);
+  EXPECT_THAT(report->unreadable[0], HasSubstr("012.jpg"));
+  EXPECT_EQ(report->found.size(), 2U);
+  EXPECT_THAT(format_error_table(*report), HasSubstr("not used: "));
+}
+
+}  // namespace
+}  // namespace telehug
