@@ -10,9 +10,8 @@ TouchEventBuilder::TouchEventBuilder(SessionId session) {
   event_.session = std::move(session);
 }
 
-const TouchEvent* TouchEventBuilder::build(std::span<const BoxedContact> contacts, GridShape grid,
+const TouchEvent* TouchEventBuilder::build(const BoxedContacts& contacts, GridShape grid,
                                            std::uint32_t body_map_version, Timestamp frame_time, Timestamp now) {
-  contacts = contacts.first(std::min(contacts.size(), max_contacts));
   forget_old_transitions(frame_time);
   if (contacts.empty() && down_.empty() && pending_.empty()) return nullptr;
 
@@ -39,7 +38,7 @@ void TouchEventBuilder::forget_old_transitions(Timestamp frame_time) {
   pending_.erase(std::remove_if(pending_.begin(), pending_.end(), told_enough), pending_.end());
 }
 
-void TouchEventBuilder::end_vanished(std::span<const BoxedContact> contacts) {
+void TouchEventBuilder::end_vanished(const BoxedContacts& contacts) {
   const auto vanished = [&](const Contact& known) {
     return std::none_of(contacts.begin(), contacts.end(),
                         [&](const BoxedContact& contact) { return contact.id == known.id; });

@@ -3,7 +3,6 @@
 
 #include <boost/container/static_vector.hpp>
 #include <cstdint>
-#include <span>
 
 #include "common/clock.hpp"
 #include "common/messages.hpp"
@@ -39,12 +38,12 @@ class TouchEventBuilder {
   // session: as made by new_session_id().
   explicit TouchEventBuilder(SessionId session);
 
-  // contacts: all of this frame, at most max_contacts (more are left out), ids unique. grid and body_map_version: of
+  // contacts: all of this frame, ids unique. grid and body_map_version: of
   // the map that the boxes refer to; ignored if there are no contacts. frame_time: rises from call to call.
   //
   // Null when there is nothing to say: no contact and no transition left to repeat. The event is valid until the next
   // call; sent_time_ns is `now`.
-  const TouchEvent* build(std::span<const BoxedContact> contacts, GridShape grid, std::uint32_t body_map_version,
+  const TouchEvent* build(const BoxedContacts& contacts, GridShape grid, std::uint32_t body_map_version,
                           Timestamp frame_time, Timestamp now);
 
  private:
@@ -54,7 +53,7 @@ class TouchEventBuilder {
   };
 
   void forget_old_transitions(Timestamp frame_time);
-  void end_vanished(std::span<const BoxedContact> contacts);
+  void end_vanished(const BoxedContacts& contacts);
   void add_contact(const BoxedContact& boxed, GridShape grid);
   void add_transition(const Contact& contact, Phase phase);
 

@@ -2,6 +2,7 @@
 #include "subscribe/staleness.hpp"
 
 #include <algorithm>
+#include <limits>
 
 namespace telehug {
 
@@ -13,8 +14,9 @@ Duration Staleness::observe(const SessionId& session, std::int64_t sent_time_ns,
     newest_bucket_ = now_ns / bucket_ns;
   }
   move_window(now_ns);
-  // Both are not negative, so the difference can't overflow.
-  const std::int64_t difference_ns = now_ns - sent_time_ns;
+  // The stamp comes from outside: what no clock shows (146 years) must not overflow the differences of differences.
+  constexpr std::int64_t max_stamp_ns = std::numeric_limits<std::int64_t>::max() / 2;
+  const std::int64_t difference_ns = now_ns - std::clamp<std::int64_t>(sent_time_ns, 0, max_stamp_ns);
   auto& bucket = smallest_[static_cast<std::size_t>(newest_bucket_) % buckets];
   bucket = std::min(bucket.value_or(difference_ns), difference_ns);
   last_arrival_ns_ = now_ns;

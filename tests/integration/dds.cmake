@@ -7,3 +7,7 @@ telehug_test(test_dds_hostile_peer KIND integration SUBJECT link
   SOURCES integration/dds/hostile_peer_test.cpp
   DEPS telehug_dds telehug_idl
   USES_FASTDDS)
+
+telehug_test(test_dds_killed_peer KIND integration SUBJECT link
+  SOURCES integration/dds/killed_peer_test.cpp
+  DEPS telehug_dds telehug_peer)

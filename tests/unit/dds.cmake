@@ -1,0 +1,17 @@
+# SPDX-License-Identifier: Apache-2.0
+telehug_test(test_peer KIND unit SUBJECT link
+  SOURCES unit/peer/heartbeat_test.cpp unit/peer/session_test.cpp
+  DEPS telehug_peer)
+
+telehug_test(test_publish KIND unit SUBJECT link
+  SOURCES unit/publish/touch_event_builder_test.cpp doubles/allocation_counter.cpp
+  DEPS active_publish)
+
+telehug_test(test_subscribe KIND unit SUBJECT link
+  SOURCES unit/subscribe/lossy_way_test.cpp unit/subscribe/staleness_test.cpp unit/subscribe/touch_order_test.cpp
+  DEPS passive_subscribe active_publish)
+
+telehug_test(test_dds KIND unit SUBJECT link
+  SOURCES unit/dds/malformed_payload_test.cpp unit/dds/validate_test.cpp unit/dds/wire_test.cpp
+  DEPS telehug_dds telehug_idl
+  USES_FASTDDS)
