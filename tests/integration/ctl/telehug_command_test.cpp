@@ -9,6 +9,7 @@
 
 #include <atomic>
 #include <cstring>
+#include <sstream>
 #include <thread>
 
 #include "doubles/temporary_folder.hpp"
@@ -44,8 +45,9 @@ class TelehugCommand : public testing::Test {
   }
 
   static std::string content(const std::filesystem::path& file) {
-    std::ifstream stream(file);
-    return {std::istreambuf_iterator<char>(stream), {}};
+    std::ostringstream text;
+    text << std::ifstream(file).rdbuf();
+    return text.str();
   }
 
   std::unique_ptr<ControlServer> daemon(Side side, Json status) {
@@ -104,7 +106,7 @@ TEST_F(TelehugCommand, SaysSoWhenOnlyALeftSocketIsThere) {
   std::strncpy(address.sun_path, socket.c_str(), sizeof(address.sun_path) - 1);
   ASSERT_EQ(bind(fd, reinterpret_cast<const sockaddr*>(&address), sizeof address), 0);
   close(fd);
-  EXPECT_EQ(run("status --side active --socket " + socket.string()).code, to_int(ExitCode::not_running));
+  EXPECT_EQ(run("status --side active --socket " + socket).code, to_int(ExitCode::not_running));
 }
 
 TEST_F(TelehugCommand, ShowsEveryDaemonsStatus) {
