@@ -16,6 +16,8 @@ namespace {
 // A configuration is a few kB; this keeps a wrong path (a disk, a recording) from filling the memory.
 constexpr std::size_t most_bytes = 1 << 20;
 constexpr int most_syntax_faults = 20;
+// toml++ makes a table of every dot in a key and takes them apart recursively: a line of 100 kB overflows the stack.
+constexpr std::size_t longest_line = 4096;
 
 std::string place(const std::string& file, toml::source_index line) {
   return fmt::format("{}:{}", file, line);
@@ -39,6 +41,17 @@ bool blank_line(std::string& text, toml::source_index number) {
   }
   text.replace(begin, end - begin, end - begin, ' ');
   return true;
+}
+
+// The number of the first line that is too long; 0 if none is.
+toml::source_index too_long_line(std::string_view text) {
+  toml::source_index number = 1;
+  for (std::size_t begin = 0; begin < text.size(); ++number) {
+    const std::size_t end = std::min(text.find('\n', begin), text.size());
+    if (end - begin > longest_line) return number;
+    begin = end + 1;
+  }
+  return 0;
 }
 
 std::optional<toml::table> parse(std::string text, const std::string& name, std::vector<Fault>& faults) {
@@ -86,6 +99,10 @@ void read_section(const std::string& file, std::string_view section, const toml:
 }  // namespace
 
 void read_toml_text(std::string text, const std::string& name, std::vector<Key>& keys, std::vector<Fault>& faults) {
+  if (const auto line = too_long_line(text); line != 0) {
+    faults.push_back({place(name, line), fmt::format("the line is longer than {} bytes", longest_line)});
+    return;
+  }
   const auto document = parse(std::move(text), name, faults);
   if (!document) return;
   for (const auto& [section, node] : *document) {

@@ -47,39 +47,43 @@ Daemons find_daemons(const DaemonChoice& choice) {
     if (auto* client = std::get_if<ControlClient>(&attempt)) {
       daemons.found.push_back({socket, std::move(*client)});
     } else if (std::get<ConnectFailure>(attempt) == ConnectFailure::permission) {
-      daemons.failure = ExitCode::permission;
-      daemons.sentence = fmt::format(
-          "a daemon's socket {} may not be used by this user: ask as root, or join the group that owns the socket",
-          socket.string());
-    } else if (std::get<ConnectFailure>(attempt) == ConnectFailure::other && daemons.sentence.empty()) {
-      daemons.failure = ExitCode::bad_answer;
-      daemons.sentence =
-          fmt::format("the socket {} does not take connections: try again, or restart the daemon", socket.string());
+      daemons.unreachable.push_back(
+          {ExitCode::permission,
+           fmt::format("the socket {} may not be used by this user: ask as root, or join the group that owns it",
+                       socket.string())});
+    } else if (std::get<ConnectFailure>(attempt) == ConnectFailure::other) {
+      daemons.unreachable.push_back(
+          {ExitCode::bad_answer,
+           fmt::format("the socket {} does not take connections: try again, or restart its daemon", socket.string())});
     }
   }
-  if (daemons.sentence.empty()) daemons.sentence = nobody_there(choice);
+  if (daemons.found.empty() && daemons.unreachable.empty()) {
+    daemons.unreachable.push_back({ExitCode::not_running, nobody_there(choice)});
+  }
   return daemons;
 }
 
-ExitCode complain(const std::filesystem::path& socket, ExitCode code, const std::string& sentence) {
-  if (socket.empty()) {
-    fmt::print(stderr, "telehug: {}\n", plain_text(sentence));
-  } else {
-    fmt::print(stderr, "telehug: {}: {}\n", socket.string(), plain_text(sentence));
+ExitCode complain_of_unreachable(const Daemons& daemons) {
+  for (const Unreachable& daemon : daemons.unreachable) {
+    fmt::print(stderr, "telehug: {}\n", plain_text(daemon.sentence));
   }
+  return daemons.unreachable.empty() ? ExitCode::ok : daemons.unreachable.front().code;
+}
+
+ExitCode complain(const Daemon& daemon, ExitCode code, const std::string& sentence) {
+  fmt::print(stderr, "telehug: {}: {}\n", daemon.socket.string(), plain_text(sentence));
   return code;
 }
 
 ExitCode tell_all(const DaemonChoice& choice, const nlohmann::json& request, const std::string& done) {
   Daemons daemons = find_daemons(choice);
-  if (daemons.found.empty()) return complain({}, daemons.failure, daemons.sentence);
-  ExitCode result = ExitCode::ok;
+  ExitCode result = complain_of_unreachable(daemons);
   for (Daemon& daemon : daemons.found) {
     const auto reply = daemon.client.ask(request);
     if (!reply) {
-      result = complain(daemon.socket, ExitCode::bad_answer, reply.error().message);
+      result = complain(daemon, ExitCode::bad_answer, reply.error().message);
     } else if (reply->contains("error")) {
-      result = complain(daemon.socket, ExitCode::refused, text_of((*reply)["error"]));
+      result = complain(daemon, ExitCode::refused, text_of((*reply)["error"]));
     } else {
       fmt::print("{}: {}\n", reply->contains("side") ? text_of((*reply)["side"]) : daemon.socket.string(), done);
     }

@@ -29,18 +29,26 @@ struct Daemon {
   ControlClient client;
 };
 
-struct Daemons {
-  std::vector<Daemon> found;
-  // If none was found: why, as an exit code and a sentence.
-  ExitCode failure = ExitCode::not_running;
+// A daemon that is there (or nearly) and can't be spoken to.
+struct Unreachable {
+  ExitCode code = ExitCode::bad_answer;
   std::string sentence;
 };
 
-// Every daemon that can be reached, active before passive.
+struct Daemons {
+  std::vector<Daemon> found;
+  std::vector<Unreachable> unreachable;
+};
+
+// Every daemon in the usual places (or in the given one), active before passive. If there is none at all, `unreachable`
+// says so: one of the two is never empty.
 [[nodiscard]] Daemons find_daemons(const DaemonChoice& choice);
 
+// Tells of every daemon that can't be spoken to; ok if there is none such.
+ExitCode complain_of_unreachable(const Daemons& daemons);
+
 // What a daemon that can't be spoken to, or refuses, means to the user. Prints to stderr.
-ExitCode complain(const std::filesystem::path& socket, ExitCode code, const std::string& sentence);
+ExitCode complain(const Daemon& daemon, ExitCode code, const std::string& sentence);
 
 // Asks every daemon the same and prints "SIDE: <done>" for each that accepts. Used by stop and resume.
 ExitCode tell_all(const DaemonChoice& choice, const nlohmann::json& request, const std::string& done);

@@ -29,17 +29,16 @@ ExitCode verdict(const nlohmann::json& status) {
 
 ExitCode run(const Options& options) {
   Daemons daemons = find_daemons(options.daemons);
-  if (daemons.found.empty()) return complain({}, daemons.failure, daemons.sentence);
-  ExitCode result = ExitCode::ok;
+  ExitCode result = complain_of_unreachable(daemons);
   auto all = nlohmann::json::array();
   for (Daemon& daemon : daemons.found) {
     const auto reply = daemon.client.ask({{"command", "status"}});
     if (!reply) {
-      result = complain(daemon.socket, ExitCode::bad_answer, reply.error().message);
+      result = complain(daemon, ExitCode::bad_answer, reply.error().message);
       continue;
     }
     if (reply->contains("error")) {
-      result = complain(daemon.socket, ExitCode::refused, text_of((*reply)["error"]));
+      result = complain(daemon, ExitCode::refused, text_of((*reply)["error"]));
       continue;
     }
     if (options.check && result == ExitCode::ok) result = verdict(*reply);

@@ -26,11 +26,11 @@ class Watch {
 
   ExitCode run() {
     Daemons daemons = find_daemons(options_.daemons);
-    if (daemons.found.empty()) return complain({}, daemons.failure, daemons.sentence);
+    result_ = complain_of_unreachable(daemons);
     for (Daemon& daemon : daemons.found) {
       const auto reply = daemon.client.ask({{"command", "watch"}});
-      if (!reply) return complain(daemon.socket, ExitCode::bad_answer, reply.error().message);
-      if (reply->contains("error")) return complain(daemon.socket, ExitCode::refused, text_of((*reply)["error"]));
+      if (!reply) return complain(daemon, ExitCode::bad_answer, reply.error().message);
+      if (reply->contains("error")) return complain(daemon, ExitCode::refused, text_of((*reply)["error"]));
     }
     while (!done_ && !daemons.found.empty()) {
       wait(daemons);
@@ -58,7 +58,7 @@ class Watch {
     while (!done_) {
       const auto event = daemon.client.next(Duration::zero());
       if (!event) {
-        result_ = complain(daemon.socket, ExitCode::not_running, event.error().message);
+        result_ = complain(daemon, ExitCode::not_running, event.error().message);
         return false;
       }
       if (!*event) return true;

@@ -70,7 +70,8 @@ TEST_F(ControlServerTest, TellsHandlersWhoAsks) {
 
 TEST_F(ControlServerTest, SaysWhatItKnowsWhenACommandIsUnknown) {
   serve();
-  EXPECT_EQ(ask({{"command", "dance"}}), Json({{"error", "unknown command \"dance\"; known are watch, echo, status, who"}}));
+  EXPECT_EQ(ask({{"command", "dance"}}),
+            Json({{"error", "unknown command \"dance\"; known are watch, echo, status, who"}}));
 }
 
 TEST_F(ControlServerTest, TurnsAHandlersExceptionIntoAnErrorAndLivesOn) {
@@ -97,7 +98,8 @@ TEST_F(ControlServerTest, SurvivesRandomBytes) {
   for (int round = 0; round < 30; ++round) {
     RawConnection connection(options_.socket);
     std::string bytes(random() % 20'000, '\0');
-    for (char& c : bytes) c = static_cast<char>(random());
+    for (char& c : bytes)
+      c = static_cast<char>(random());
     connection.send(bytes);
   }
   EXPECT_EQ(ask({{"command", "status"}}), Json({{"side", "active"}}));
@@ -115,7 +117,8 @@ TEST_F(ControlServerTest, EndsAConnectionThatSendsAnEndlessLine) {
   RawConnection connection(options_.socket);
   const std::string block(4096, 'x');
   int sent = 0;
-  while (sent < 1000 && connection.send(block)) ++sent;
+  while (sent < 1000 && connection.send(block))
+    ++sent;
   EXPECT_LT(sent, 1000) << "the server took 4 MB of one line";
   EXPECT_EQ(connection.line(), "{\"error\":\"the request is too long\"}");
   EXPECT_TRUE(connection.closed());
@@ -193,7 +196,8 @@ TEST_F(ControlServerTest, AnswersManyClientsAtOnce) {
       }
     });
   }
-  for (auto& thread : threads) thread.join();
+  for (auto& thread : threads)
+    thread.join();
   EXPECT_EQ(right, 400);
 }
 

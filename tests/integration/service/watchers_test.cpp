@@ -39,7 +39,8 @@ TEST_F(Watchers, AreToldEveryEventInOrder) {
   RawConnection two(options_.socket);
   watch(one);
   watch(two);
-  for (int i = 0; i < 100; ++i) server.broadcast({{"event", "touch"}, {"n", i}});
+  for (int i = 0; i < 100; ++i)
+    server.broadcast({{"event", "touch"}, {"n", i}});
   for (int i = 0; i < 100; ++i) {
     const std::string expected = "{\"event\":\"touch\",\"n\":" + std::to_string(i) + "}";
     ASSERT_EQ(one.line(), expected);
@@ -77,7 +78,7 @@ TEST_F(Watchers, ThatDoNotReadNeitherHoldUpTheSenderNorFillTheMemory) {
   watch(slow);
   watch(quick);
   const std::string padding(1000, 'p');
-  constexpr int events = 20'000;  // 20 MB: far beyond what the kernel buffers
+  static constexpr int events = 20'000;  // 20 MB: far beyond what the kernel buffers
   std::thread reader([&quick] {
     int last = -1;
     while (last < events - 1) {
@@ -90,7 +91,8 @@ TEST_F(Watchers, ThatDoNotReadNeitherHoldUpTheSenderNorFillTheMemory) {
     }
     EXPECT_EQ(last, events - 1);
   });
-  for (int i = 0; i < events; ++i) server.broadcast({{"event", "touch"}, {"n", i}, {"padding", padding}});
+  for (int i = 0; i < events; ++i)
+    server.broadcast({{"event", "touch"}, {"n", i}, {"padding", padding}});
   reader.join();
   EXPECT_GT(server.stats().dropped_events, 10'000U);
 
@@ -118,9 +120,11 @@ TEST_F(Watchers, ThatStayStuckAreEnded) {
   RawConnection stuck(options_.socket);
   watch(stuck);
   const std::string padding(100'000, 'p');
-  for (int i = 0; i < 100; ++i) server.broadcast({{"padding", padding}});
+  for (int i = 0; i < 100; ++i)
+    server.broadcast({{"padding", padding}});
   const auto deadline = std::chrono::steady_clock::now() + 20s;
-  while (server.stats().watchers > 0 && std::chrono::steady_clock::now() < deadline) std::this_thread::sleep_for(1ms);
+  while (server.stats().watchers > 0 && std::chrono::steady_clock::now() < deadline)
+    std::this_thread::sleep_for(1ms);
   EXPECT_EQ(server.stats().watchers, 0U);
 }
 
@@ -132,17 +136,21 @@ TEST_F(Watchers, CanBeToldByManyThreadsAtOnce) {
   std::vector<std::thread> threads;
   for (int t = 0; t < 4; ++t) {
     threads.emplace_back([&server] {
-      for (int i = 0; i < 200; ++i) server.broadcast({{"event", "touch"}});
+      for (int i = 0; i < 200; ++i)
+        server.broadcast({{"event", "touch"}});
     });
   }
-  for (int i = 0; i < 800; ++i) ASSERT_EQ(watcher.line(), "{\"event\":\"touch\"}");
-  for (auto& thread : threads) thread.join();
+  for (int i = 0; i < 800; ++i)
+    ASSERT_EQ(watcher.line(), "{\"event\":\"touch\"}");
+  for (auto& thread : threads)
+    thread.join();
 }
 
 TEST_F(Watchers, AreNotNeededForABroadcast) {
   ControlServer& server = serve();
   EXPECT_FALSE(server.has_watchers());
-  for (int i = 0; i < 10'000; ++i) server.broadcast({{"event", "touch"}});
+  for (int i = 0; i < 10'000; ++i)
+    server.broadcast({{"event", "touch"}});
   EXPECT_EQ(server.stats().dropped_events, 0U);
 }
 

@@ -22,7 +22,9 @@ class ConfigLayers : public testing::Test {
   ConfigSources sources_;
 };
 
-TEST_F(ConfigLayers, MayAllBeMissing) { EXPECT_EQ(load().camera.fps, 30); }
+TEST_F(ConfigLayers, MayAllBeMissing) {
+  EXPECT_EQ(load().camera.fps, 30);
+}
 
 TEST_F(ConfigLayers, WinOverEarlierOnesKeyByKey) {
   folder_.write("etc/active.toml", "[camera]\nfps = 1\nwidth_px = 640\nheight_px = 400\n[peer]\ndomain = 1\n");

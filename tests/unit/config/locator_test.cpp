@@ -13,14 +13,16 @@ TEST(CameraSource, IsAWebcamARecordingOrTheVirtualRig) {
   ASSERT_TRUE(recording);
   EXPECT_EQ(recording->kind, CameraSourceKind::recording);
   EXPECT_EQ(recording->folder, "/a/b:c");
-  for (const char* wrong : {"", "replay:", "replay", "webcam ", "VIRTUAL"}) EXPECT_FALSE(parse_camera_source(wrong));
+  for (const char* wrong : {"", "replay:", "replay", "webcam ", "VIRTUAL"})
+    EXPECT_FALSE(parse_camera_source(wrong));
 }
 
 TEST(JacketLinkChoice, IsASerialLineTheSimulationOrAFile) {
   EXPECT_EQ(parse_jacket_link("simulated")->kind, JacketLinkKind::simulated);
   EXPECT_EQ(parse_jacket_link("serial:/dev/ttyACM0")->path, "/dev/ttyACM0");
   EXPECT_EQ(parse_jacket_link("record:out.bin")->kind, JacketLinkKind::recorded);
-  for (const char* wrong : {"", "serial:", "record:", "serial", "usb:x"}) EXPECT_FALSE(parse_jacket_link(wrong));
+  for (const char* wrong : {"", "serial:", "record:", "serial", "usb:x"})
+    EXPECT_FALSE(parse_jacket_link(wrong));
 }
 
 }  // namespace

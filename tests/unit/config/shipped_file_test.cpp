@@ -37,7 +37,8 @@ void expect_defaults(const std::string& text) {
   const auto default_keys = keys_of(defaults);
   std::vector<Fault> faults;
   read_toml_text(uncommented(text), "shipped", keys, faults);
-  for (const Fault& fault : faults) ADD_FAILURE() << fault.where << ": " << fault.what;
+  for (const Fault& fault : faults)
+    ADD_FAILURE() << fault.where << ": " << fault.what;
   for (std::size_t i = 0; i < keys.size(); ++i) {
     EXPECT_FALSE(keys[i].origin.empty()) << keys[i].path() << " is not in the file";
     EXPECT_EQ(toml_text(keys[i].target), toml_text(default_keys[i].target)) << keys[i].path();

@@ -25,12 +25,12 @@ TEST(StatusText, SaysWhatIsWrongAndWhatToDo) {
 }
 
 TEST(StatusText, ShowsPeerCameraCountersAndLatencies) {
-  const std::string text = status_text(
-      {{"side", "active"},
-       {"peer", {{"connected", true}, {"round_trip_ms", 1.5}, {"stopped", true}, {"reason", "bed time"}}},
-       {"camera", {{"name", "C920"}, {"open", false}, {"why", "no peer"}}},
-       {"counters", {{"touches", 12}}},
-       {"latency_ms", {{"finger", {{"p50", 1.25}, {"p99", 2.5}, {"max", 3.0}, {"count", 100}}}}}});
+  const std::string text =
+      status_text({{"side", "active"},
+                   {"peer", {{"connected", true}, {"round_trip_ms", 1.5}, {"stopped", true}, {"reason", "bed time"}}},
+                   {"camera", {{"name", "C920"}, {"open", false}, {"why", "no peer"}}},
+                   {"counters", {{"touches", 12}}},
+                   {"latency_ms", {{"finger", {{"p50", 1.25}, {"p99", 2.5}, {"max", 3.0}, {"count", 100}}}}}});
   EXPECT_THAT(text, HasSubstr("peer         connected, stopped: bed time, round trip 1.5 ms\n"));
   EXPECT_THAT(text, HasSubstr("camera       C920, closed: no peer\n"));
   EXPECT_THAT(text, testing::ContainsRegex("touches +12\n"));
@@ -50,17 +50,25 @@ TEST(StatusText, LetsNoControlCharacterThrough) {
 }
 
 TEST(StatusText, BearsPartsOfAnyType) {
-  const std::vector<Json> values{nullptr, true, -3, 1e300, "text", Json::array({1, "a", nullptr}), Json::object(),
+  const std::vector<Json> values{nullptr,
+                                 true,
+                                 -3,
+                                 1e300,
+                                 "text",
+                                 Json::array({1, "a", nullptr}),
+                                 Json::object(),
                                  Json{{"connected", "perhaps"}, {"open", 3}, {"p50", {1}}}};
-  const std::vector<std::string> names{"side",   "state",  "version", "uptime_s", "problems",   "peer",
+  const std::vector<std::string> names{"side",   "state",  "version",  "uptime_s",   "problems",  "peer",
                                        "camera", "jacket", "counters", "latency_ms", "last_touch"};
   std::mt19937 random(3);
   for (int round = 0; round < 2000; ++round) {
     Json status = Json::object();
-    for (const auto& name : names) status[name] = values[random() % values.size()];
+    for (const auto& name : names)
+      status[name] = values[random() % values.size()];
     EXPECT_FALSE(status_text(status).empty());
   }
-  for (const Json& value : values) EXPECT_FALSE(status_text(value).empty());
+  for (const Json& value : values)
+    EXPECT_FALSE(status_text(value).empty());
 }
 
 }  // namespace

@@ -23,8 +23,7 @@ TEST(Log, CarriesTheTimeElsewhere) {
   CaptureStderr();
   set_up_log("debug", LogStyle::plain);
   spdlog::debug("seen");
-  EXPECT_THAT(GetCapturedStderr(),
-              testing::MatchesRegex("[0-9-]+T[0-9:.]+[+-][0-9:]+ debug   seen\n"));
+  EXPECT_THAT(GetCapturedStderr(), testing::MatchesRegex("[0-9-]+T[0-9:.]+[+-][0-9:]+ debug   seen\n"));
 }
 
 TEST(Log, TakesAnUnknownLevelForInfo) {

@@ -69,10 +69,12 @@ TEST(LatencyHistogram, LosesNothingWhenThreadsWriteAtOnce) {
   std::vector<std::thread> threads;
   for (int t = 1; t <= 4; ++t) {
     threads.emplace_back([&histogram, t] {
-      for (int i = 0; i < 10'000; ++i) histogram.record(std::chrono::microseconds(t));
+      for (int i = 0; i < 10'000; ++i)
+        histogram.record(std::chrono::microseconds(t));
     });
   }
-  for (auto& thread : threads) thread.join();
+  for (auto& thread : threads)
+    thread.join();
   EXPECT_EQ(histogram.summary().count, 40'000U);
   EXPECT_DOUBLE_EQ(histogram.summary().max_ms, 0.004);
 }
@@ -82,7 +84,8 @@ TEST(MetricsRegistry, GivesTheSameCounterForTheSameName) {
   Counter& counter = metrics.counter("touches");
   counter.add();
   metrics.counter("touches").add(2);
-  for (int i = 0; i < 100; ++i) (void)metrics.counter("other " + std::to_string(i));
+  for (int i = 0; i < 100; ++i)
+    (void)metrics.counter("other " + std::to_string(i));
   EXPECT_EQ(counter.value(), 3U);
   EXPECT_EQ(&counter, &metrics.counter("touches"));
 }
@@ -91,7 +94,8 @@ TEST(MetricsRegistry, BecomesJson) {
   MetricsRegistry metrics;
   metrics.counter("touches").add(7);
   (void)metrics.latency("never used");
-  for (int i = 0; i < 100; ++i) metrics.latency("finger").record(2ms);
+  for (int i = 0; i < 100; ++i)
+    metrics.latency("finger").record(2ms);
   EXPECT_EQ(metrics.counters_json(), nlohmann::json({{"touches", 7}}));
   const auto stages = metrics.latencies_json();
   ASSERT_EQ(stages.size(), 1U);

@@ -29,7 +29,8 @@ class NotifierTest : public testing::Test {
   }
   ~NotifierTest() override {
     close(fd_);
-    for (const char* name : {"NOTIFY_SOCKET", "WATCHDOG_USEC", "WATCHDOG_PID"}) unsetenv(name);
+    for (const char* name : {"NOTIFY_SOCKET", "WATCHDOG_USEC", "WATCHDOG_PID"})
+      unsetenv(name);
   }
   // The oldest message that was sent, or "nothing".
   std::string told() const {

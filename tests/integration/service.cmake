@@ -1,0 +1,12 @@
+# SPDX-License-Identifier: Apache-2.0
+telehug_test(test_control_server KIND integration SUBJECT ops
+  SOURCES integration/service/control_server_test.cpp integration/service/control_socket_test.cpp
+          integration/service/watchers_test.cpp
+  DEPS telehug_service)
+set_source_files_properties(integration/service/control_server_test.cpp integration/service/watchers_test.cpp
+  TARGET_DIRECTORY test_control_server PROPERTIES COMPILE_OPTIONS -Wno-null-dereference)
+
+telehug_test(test_telehug_command KIND integration SUBJECT ops
+  SOURCES integration/ctl/telehug_command_test.cpp
+  DEPS telehug_service)
+add_dependencies(test_telehug_command telehug)
