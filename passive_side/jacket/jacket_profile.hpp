@@ -21,7 +21,8 @@ inline constexpr std::uint8_t motor_channels = 16;  // of the microcontroller: 0
 // midline, from the chin down).
 inline constexpr int standard_columns = 5;
 inline constexpr double standard_box_side_fh = 0.5;
-inline constexpr int largest_box = 100;  // twenty rows: farther down than any camera sees
+inline constexpr int standard_rows = 20;  // farther down than any camera sees
+inline constexpr int largest_box = standard_columns * standard_rows;
 
 enum class ActuatorKind : std::uint8_t { motor };
 enum class BodySide : std::uint8_t { front, back };

@@ -9,6 +9,7 @@
 #include <array>
 #include <cmath>
 #include <initializer_list>
+#include <map>
 #include <string_view>
 
 namespace telehug {
@@ -20,13 +21,10 @@ constexpr double farthest_place_fh = 5;  // nobody's jacket is wider or longer
 constexpr std::array possible_bauds{9600, 19200, 38400, 57600, 115200, 500000, 1000000};
 
 template <typename T>
-constexpr std::string_view type_name = "";
-template <>
-constexpr std::string_view type_name<std::int64_t> = "a whole number";
-template <>
-constexpr std::string_view type_name<double> = "a number";
-template <>
-constexpr std::string_view type_name<std::string> = "a text in quotes";
+constexpr std::string_view type_name() {
+  if (std::is_same_v<T, std::int64_t>) return "a whole number";
+  return std::is_same_v<T, double> ? "a number" : "a text in quotes";
+}
 
 // Collects every fault of a file with its line.
 class Faults {
@@ -34,21 +32,20 @@ class Faults {
   explicit Faults(std::string file) : file_(std::move(file)) {}
 
   void add(const toml::source_region& where, std::string_view sentence) {
-    lines_.emplace_back(where.begin.line, fmt::format("{}:{}: {}", file_, where.begin.line, sentence));
+    lines_.emplace(where.begin.line, fmt::format("{}:{}: {}", file_, where.begin.line, sentence));
   }
   [[nodiscard]] bool none() const { return lines_.empty(); }
-  [[nodiscard]] Error error() {
-    std::ranges::stable_sort(lines_, {}, &Line::first);
+  // In the order of lines; those of one line in the order in which they were found.
+  [[nodiscard]] Error error() const {
     std::string text;
-    for (const auto& [number, line] : lines_)
-      text += (text.empty() ? "" : "\n") + line;
+    for (const auto& [line, sentence] : lines_)
+      text += (text.empty() ? "" : "\n") + sentence;
     return {text};
   }
 
  private:
-  using Line = std::pair<toml::source_index, std::string>;
   std::string file_;
-  std::vector<Line> lines_;
+  std::multimap<toml::source_index, std::string> lines_;
 };
 
 // Reads one table; says which of its keys are missing, wrong or unknown.
@@ -66,7 +63,7 @@ class TableReader {
     } else {
       if (const auto value = node->value_exact<T>()) return value;
     }
-    fault(key, fmt::format("must be {}", type_name<T>));
+    fault(key, fmt::format("must be {}", type_name<T>()));
     return std::nullopt;
   }
 

@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
-add_executable(bench_jacket bench/jacket/bench_jacket.cpp)
-target_link_libraries(bench_jacket PRIVATE passive_jacket passive_safety fmt::fmt)
+find_package(CLI11 REQUIRED)
+find_package(nlohmann_json 3.11 REQUIRED)
+telehug_program(bench_jacket SOURCES bench/jacket/bench_jacket.cpp
+  DEPS passive_jacket passive_safety fmt::fmt CLI11::CLI11 nlohmann_json::nlohmann_json)
 target_include_directories(bench_jacket PRIVATE ${PROJECT_SOURCE_DIR}/tests)
 target_compile_definitions(bench_jacket PRIVATE TELEHUG_SOURCE="${PROJECT_SOURCE_DIR}")
-telehug_settings(bench_jacket)
 set_target_properties(bench_jacket PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/tests)

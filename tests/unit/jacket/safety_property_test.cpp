@@ -8,6 +8,7 @@
 #include <random>
 
 #include "doubles/fake_jacket_link.hpp"
+#include "jacket/touch_to_drives.hpp"
 #include "safety/safety_stage.hpp"
 #include "unit/jacket/jacket_builders.hpp"
 
@@ -44,16 +45,48 @@ class Adversary {
     }
     return made;
   }
+  Contact contact() {
+    static constexpr double odd[]{std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity(),
+                                  -1e300, 1e300};
+    Contact made = contact_in(whole(1, 20), static_cast<std::uint32_t>(whole(1, 4)), static_cast<Phase>(whole(0, 2)));
+    made.strength = strength();
+    if (one_in(4)) made.box = static_cast<std::uint16_t>(whole(0, 65535));
+    if (one_in(4))
+      made.grid = {static_cast<std::uint16_t>(whole(0, 65535)), static_cast<std::uint16_t>(whole(0, 65535))};
+    if (one_in(4)) made.body.x_fh = odd[whole(0, 3)];
+    if (one_in(4)) made.body.y_fh = odd[whole(0, 3)];
+    return made;
+  }
+  std::int64_t frame_time_ns() {
+    static constexpr std::int64_t odd[]{std::numeric_limits<std::int64_t>::min(), 0,
+                                        std::numeric_limits<std::int64_t>::max()};
+    return one_in(10) ? odd[whole(0, 2)] : whole(0, 1'000'000'000);
+  }
+  TouchEvent event() {
+    TouchEvent made;
+    made.sequence = static_cast<std::uint64_t>(whole(0, 20));
+    made.frame_time_ns = frame_time_ns();
+    for (int n = whole(0, static_cast<int>(max_contacts)); n > 0; --n)
+      made.contacts.push_back(contact());
+    for (int n = whole(0, static_cast<int>(max_transitions)); n > 0; --n) {
+      made.transitions.push_back({static_cast<std::uint64_t>(whole(0, 20)), frame_time_ns(), contact()});
+    }
+    return made;
+  }
 
  private:
   std::mt19937 random_;
 };
 
 JacketProfile random_profile(Adversary& adversary) {
-  JacketProfile profile = profile_of({});
+  JacketProfile profile = profile_of({}, adversary.one_in(2) ? Uncovered::nearest : Uncovered::none);
   for (int id = 1; id <= 8; ++id) {
     Actuator made = motor(static_cast<std::uint8_t>(id), {}, {});
     made.channel = static_cast<std::uint8_t>(15 - id);
+    made.place = {adversary.real(-1, 1), adversary.real(0, 2)};
+    for (int n = adversary.whole(0, 3); n > 0; --n) {
+      made.boxes.push_back(static_cast<std::uint16_t>(adversary.whole(1, 20)));
+    }
     made.max_strength = adversary.real(0, 1);
     made.min_strength = adversary.real(0, made.max_strength);
     profile.actuators.push_back(made);
@@ -158,8 +191,17 @@ class HauntedJacket {
     EXPECT_TRUE(safety_.stopped());
   }
 
+  // Drives that no planner would make, or those that the planner makes of touches that nobody would send.
   void apply() {
-    const SafetyVerdict verdict = safety_.apply(adversary_.drives(now_), now_);
+    if (adversary_.one_in(2)) {
+      const TouchEvent event = adversary_.event();
+      const auto duration = std::chrono::milliseconds(adversary_.whole(-10, 1000));
+      plan_ =
+          touch_to_drives(event, {event.transitions.data(), event.transitions.size()}, profile_, plan_, now_, duration);
+    } else {
+      plan_.drives = adversary_.drives(now_);
+    }
+    const SafetyVerdict verdict = safety_.apply(plan_.drives, now_);
     if (safety_.stopped()) {
       EXPECT_EQ(verdict.outcome, FeltOutcome::stopped);
     }
@@ -199,6 +241,7 @@ class HauntedJacket {
   JacketProfile profile_;
   SafetyLimits limits_;
   SafetyStage safety_;
+  JacketPlan plan_;
   std::array<double, 16> most_{};
   Timestamp now_ = from_ns(100'000'000'000);
   Timestamp heartbeat_ = Timestamp{};
