@@ -14,8 +14,9 @@ namespace telehug {
 // Everything that the pictures of a virtual rig follow from: two rigs with the same settings give the same pictures.
 struct VirtualRigSettings {
   ScreenSize screen{380, 300, 1280, 1024};
-  double bezel_mm = 18;       // width of the frame below the picture
-  double desk_below_mm = 90;  // from the screen's lower edge to the desk
+  double bezel_mm = 18;        // width of the frame around the picture
+  double bezel_raised_mm = 3;  // how far its lower part stands out in front of the screen
+  double desk_below_mm = 90;   // from the screen's lower edge to the desk
   ImageSize image{1280, 720};
   double focal_px = 950;
   CameraPose camera{{190, -15, 55}};  // above the middle of the screen's upper edge, looking straight down
