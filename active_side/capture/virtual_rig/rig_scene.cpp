@@ -11,6 +11,7 @@ namespace {
 using Colour = cv::Vec3d;  // blue, green, red, 0..255
 
 const Colour bezel_colour{46, 44, 44};
+const Colour bezel_edge{52, 50, 50};  // lit from above
 const Colour foot_colour{70, 66, 64};
 const Colour desk_colour{158, 152, 142};
 const Colour nothing{18, 18, 18};
@@ -37,14 +38,21 @@ class SceneRenderer {
   [[nodiscard]] Sample look(double u_px, double v_px) const {
     const RigPoint& eye = camera_.position_mm();
     const RigPoint ray = camera_.ray(u_px, v_px);
+    const ScreenSize& screen = settings_.screen;
+    const double bezel_mm = settings_.bezel_mm;
+    if (ray[1] > 0 && ray[2] < 0) {
+      const RigPoint wall = eye + ray * ((screen.height_mm - eye[1]) / ray[1]);
+      const RigPoint front = eye + ray * ((settings_.bezel_raised_mm - eye[2]) / ray[2]);
+      const bool across = wall[0] >= -bezel_mm && wall[0] <= screen.width_mm + bezel_mm;
+      if (across && wall[2] >= 0 && wall[2] <= settings_.bezel_raised_mm) return {bezel_edge, bezel_edge, false};
+      if (across && front[1] > screen.height_mm && front[1] <= screen.height_mm + bezel_mm) {
+        return {bezel_colour, bezel_colour, false};
+      }
+    }
     if (ray[2] < 0) {
       const RigPoint p = eye + ray * (-eye[2] / ray[2]);
-      const ScreenSize& screen = settings_.screen;
-      const bool across = p[0] >= -settings_.bezel_mm && p[0] <= screen.width_mm + settings_.bezel_mm;
-      if (across && p[1] >= -settings_.bezel_mm && p[1] <= screen.height_mm + settings_.bezel_mm) {
-        if (p[0] < 0 || p[0] > screen.width_mm || p[1] < 0 || p[1] > screen.height_mm) {
-          return {bezel_colour, bezel_colour, false};
-        }
+      if (p[0] >= -bezel_mm && p[0] <= screen.width_mm + bezel_mm && p[1] >= -bezel_mm && p[1] <= screen.height_mm) {
+        if (p[0] < 0 || p[0] > screen.width_mm || p[1] < 0) return {bezel_colour, bezel_colour, false};
         const Colour own = content(p[0] / screen.width_mm, p[1] / screen.height_mm) * grazing_brightness + coat_haze;
         return {own + behind_monitor(p, {ray[0], ray[1], -ray[2]}) * settings_.mirror, own, true};
       }

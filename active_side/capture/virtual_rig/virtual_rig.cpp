@@ -41,8 +41,9 @@ Status check_virtual_rig(const VirtualRigSettings& s) {
   }
   if (!within(s.focal_px, 50, 50'000)) return Error{"virtual rig: focal_px must be 50 to 50000"};
   if (!within(s.fps, 0.1, 1000)) return Error{"virtual rig: fps must be 0.1 to 1000"};
-  if (!within(s.bezel_mm, 0, 500) || !within(s.desk_below_mm, 10, 2000)) {
-    return Error{"virtual rig: bezel_mm must be 0 to 500, desk_below_mm 10 to 2000"};
+  if (!within(s.bezel_mm, 0, 500) || !within(s.bezel_raised_mm, 0, s.camera.position_mm[2]) ||
+      !within(s.desk_below_mm, 10, 2000)) {
+    return Error{"virtual rig: bezel_mm must be 0 to 500, desk_below_mm 10 to 2000, the bezel lower than the camera"};
   }
   if (s.skin_tone < 1 || s.skin_tone > 6) return Error{"virtual rig: skin_tone must be 1 to 6 (Fitzpatrick)"};
   if (!within(s.mirror, 0, 1)) return Error{"virtual rig: mirror must be 0 to 1"};

@@ -1,0 +1,12 @@
+# SPDX-License-Identifier: Apache-2.0
+telehug_test(test_pictures KIND unit SUBJECT touch
+  SOURCES unit/pictures/jpeg_decoder_test.cpp unit/pictures/picture_file_test.cpp
+  DEPS telehug_pictures fmt::fmt)
+telehug_test(test_capture KIND unit SUBJECT touch
+  SOURCES unit/capture/make_frame_source_test.cpp unit/capture/recording_test.cpp unit/capture/rig_directory_test.cpp
+    unit/capture/webcam_test.cpp
+  DEPS active_capture fmt::fmt)
+telehug_test(test_virtual_rig KIND unit SUBJECT touch
+  SOURCES unit/capture/pinhole_camera_test.cpp unit/capture/round_cone_test.cpp unit/capture/touch_script_test.cpp
+    unit/capture/virtual_rig_test.cpp
+  DEPS active_capture fmt::fmt)
