@@ -6,27 +6,16 @@
 #include <fstream>
 #include <stdexcept>
 #include <string>
-<<<<<<< HEAD
-
-namespace telehug {
-
-// A folder of a test's own that goes away with the test.
-=======
 #include <string_view>
 
 namespace telehug {
 
-// A folder of its own for one test; it goes with the test.
->>>>>>> capture
+// An empty folder of a test's own that goes away with the test.
 class TemporaryFolder {
  public:
   TemporaryFolder() {
     std::string name = (std::filesystem::temp_directory_path() / "telehug-test-XXXXXX").string();
-<<<<<<< HEAD
-    if (mkdtemp(name.data()) == nullptr) throw std::runtime_error("no temporary folder can be made");
-=======
-    if (::mkdtemp(name.data()) == nullptr) throw std::runtime_error("can't make " + name);
->>>>>>> capture
+    if (::mkdtemp(name.data()) == nullptr) throw std::runtime_error("no temporary folder can be made at " + name);
     path_ = name;
   }
   ~TemporaryFolder() {
@@ -37,21 +26,14 @@ class TemporaryFolder {
   TemporaryFolder& operator=(const TemporaryFolder&) = delete;
 
   [[nodiscard]] const std::filesystem::path& path() const noexcept { return path_; }
-<<<<<<< HEAD
+  [[nodiscard]] std::filesystem::path operator/(const std::filesystem::path& name) const { return path_ / name; }
 
   // Writes a file below it, with its folders.
-  std::filesystem::path write(const std::filesystem::path& name, const std::string& content) const {
+  std::filesystem::path write(const std::filesystem::path& name, std::string_view content) const {
     const auto file = path_ / name;
     std::filesystem::create_directories(file.parent_path());
-    std::ofstream(file, std::ios::binary) << content;
+    std::ofstream(file, std::ios::binary | std::ios::trunc) << content;
     return file;
-=======
-  [[nodiscard]] std::filesystem::path operator/(std::string_view name) const { return path_ / name; }
-
-  void write(std::string_view name, std::string_view content) const {
-    std::filesystem::create_directories((path_ / name).parent_path());
-    std::ofstream(path_ / name, std::ios::binary) << content;
->>>>>>> capture
   }
 
  private:

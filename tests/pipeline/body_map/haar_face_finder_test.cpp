@@ -4,7 +4,7 @@
 #include <gmock/gmock.h>
 
 #include "body_map/choose_remote_face.hpp"
-#include "doubles/scratch_folder.hpp"
+#include "doubles/temporary_folder.hpp"
 #include "eval_face/face_labels.hpp"
 #include "pictures/picture_file.hpp"
 
@@ -74,7 +74,7 @@ TEST(HaarFaceFinder, RefusesAPictureThatIsNotBgr) {
 }
 
 TEST(HaarFaceFinder, NamesThePathsTriedAndThePackageWhereTheCascadeIsMissing) {
-  const ScratchFolder folder;
+  const TemporaryFolder folder;
   const auto finder = make_haar_face_finder({folder / "one.xml", folder / "two.xml"});
   ASSERT_FALSE(finder);
   EXPECT_THAT(finder.error().message, HasSubstr((folder / "one.xml").string()));
@@ -83,7 +83,7 @@ TEST(HaarFaceFinder, NamesThePathsTriedAndThePackageWhereTheCascadeIsMissing) {
 }
 
 TEST(HaarFaceFinder, RefusesAFileThatIsNoCascade) {
-  const ScratchFolder folder;
+  const TemporaryFolder folder;
   for (const auto* content : {"", "not xml", "<?xml version=\"1.0\"?>\n<opencv_storage>\n</opencv_storage>\n"}) {
     const auto file = folder.write("cascade.xml", content);
     const auto finder = make_haar_face_finder({file});
@@ -93,7 +93,7 @@ TEST(HaarFaceFinder, RefusesAFileThatIsNoCascade) {
 }
 
 TEST(HaarFaceFinder, TakesTheFirstPathThatExists) {
-  const ScratchFolder folder;
+  const TemporaryFolder folder;
   std::vector<std::filesystem::path> paths{folder / "absent.xml"};
   for (const auto& known : known_haar_cascades()) {
     paths.push_back(known);

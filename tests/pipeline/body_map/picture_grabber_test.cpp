@@ -4,7 +4,7 @@
 #include <gmock/gmock.h>
 
 #include "doubles/fake_clock.hpp"
-#include "doubles/scratch_folder.hpp"
+#include "doubles/temporary_folder.hpp"
 #include "pictures/picture_file.hpp"
 
 namespace telehug {
@@ -13,7 +13,7 @@ namespace {
 using testing::HasSubstr;
 
 // A picture of one colour; `shade` tells it from the others.
-std::filesystem::path write_picture(const ScratchFolder& folder, std::string_view name, int shade,
+std::filesystem::path write_picture(const TemporaryFolder& folder, std::string_view name, int shade,
                                     cv::Size size = {64, 48}) {
   const Status written = write_png(folder / name, cv::Mat(size, CV_8UC3, cv::Scalar(shade, shade, shade)));
   EXPECT_TRUE(written) << written.error().message;
@@ -26,7 +26,7 @@ int shade_of(const ScreenPicture& picture) {
 
 class PictureGrabberTest : public testing::Test {
  protected:
-  ScratchFolder folder;
+  TemporaryFolder folder;
   FakeClock clock;
   ScreenPicture picture;
 };

@@ -4,7 +4,7 @@
 #include <gmock/gmock.h>
 
 #include "doubles/planned_face_finder.hpp"
-#include "doubles/scratch_folder.hpp"
+#include "doubles/temporary_folder.hpp"
 #include "pictures/picture_file.hpp"
 
 namespace telehug {
@@ -29,7 +29,7 @@ class ShowBoxesTest : public testing::Test {
     return picture ? picture->at<cv::Vec3b>(y, x) : cv::Vec3b();
   }
 
-  ScratchFolder folder;
+  TemporaryFolder folder;
   ShowBoxesOptions options;
   PlannedFaceFinder finder{{{.box = {220, 60, 60, 80}, .score = 1}}};
 };

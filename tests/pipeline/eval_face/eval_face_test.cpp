@@ -8,7 +8,7 @@
 
 #include "body_map/haar_face_finder.hpp"
 #include "doubles/planned_face_finder.hpp"
-#include "doubles/scratch_folder.hpp"
+#include "doubles/temporary_folder.hpp"
 #include "pictures/picture_file.hpp"
 
 namespace telehug {
@@ -30,7 +30,7 @@ class EvalFaceTest : public testing::Test {
     EXPECT_TRUE(write_png(pictures / "a.png", cv::Mat(400, 500, CV_8UC3, cv::Scalar(9, 9, 9))));
   }
 
-  ScratchFolder folder;
+  TemporaryFolder folder;
   std::filesystem::path pictures = folder / "pictures";
   std::filesystem::path out = folder / "out.csv";
 };

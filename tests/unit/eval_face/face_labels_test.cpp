@@ -3,7 +3,7 @@
 
 #include <gmock/gmock.h>
 
-#include "doubles/scratch_folder.hpp"
+#include "doubles/temporary_folder.hpp"
 
 namespace telehug {
 namespace {
@@ -14,14 +14,14 @@ constexpr auto labels_header = "image,face_x,face_y,face_w,face_h,role\n";
 constexpr auto views_header = "image,view_x,view_y,view_w,view_h,role\n";
 
 TEST(FaceLabels, AreNoneWithoutAFile) {
-  const ScratchFolder folder;
+  const TemporaryFolder folder;
   const auto labels = read_face_labels(folder.path());
   ASSERT_TRUE(labels);
   EXPECT_FALSE(*labels);
 }
 
 TEST(FaceLabels, AreReadWithTheViewOfTheRemotePerson) {
-  const ScratchFolder folder;
+  const TemporaryFolder folder;
   folder.write("a.jpg", "");
   folder.write("n.jpg", "");
   folder.write("labels.csv",
@@ -41,7 +41,7 @@ TEST(FaceLabels, AreReadWithTheViewOfTheRemotePerson) {
 }
 
 TEST(FaceLabels, TellAllFaultsAtOnceWithFileAndLine) {
-  const ScratchFolder folder;
+  const TemporaryFolder folder;
   folder.write("a.jpg", "");
   folder.write("labels.csv", std::string(labels_header) +
                                  "a.jpg,1,2,3,4,boss\n"
