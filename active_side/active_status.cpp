@@ -69,16 +69,19 @@ Json ActiveDaemon::set_stopped(bool stopped, const std::string& reason) {
 Json ActiveDaemon::problems(const TouchThreadState& state, const FaceState& face) const {
   Json list = Json::array();
   const std::lock_guard lock(words_mutex_);
-  if (!rig_problem_.empty()) list.push_back(problem(rig_problem_, "run `telehug-active calibrate`, or correct the file"));
+  if (!rig_problem_.empty())
+    list.push_back(problem(rig_problem_, "run `telehug-active calibrate`, or correct the file"));
   if (stopped_) list.push_back(problem("stopped here: " + stop_reason_, "run `telehug resume`"));
   if (peer_.stopped_by_peer()) {
     const std::string why = peer_status_ && !peer_status_->reason.empty() ? ": " + peer_status_->reason : "";
     list.push_back(problem("the other side has stopped everything" + why, "ask them to resume"));
   }
   if (!state.peer.alive) {
-    list.push_back(problem("no peer is connected", "start telehug-passive on the other PC; domain and partition must agree"));
+    list.push_back(
+        problem("no peer is connected", "start telehug-passive on the other PC; domain and partition must agree"));
   } else if (peer_status_ && !peer_status_->ready && !peer_status_->stopped) {
-    list.push_back(problem("the other side is not ready: " + peer_status_->reason, "see `telehug status` on the other PC"));
+    list.push_back(
+        problem("the other side is not ready: " + peer_status_->reason, "see `telehug status` on the other PC"));
   }
   if (state.camera_lost) list.push_back(problem(state.camera_problem, "plug the camera in, or correct [camera]"));
   if (state.recording_over) list.push_back(problem("the recording is over", "start again to replay it"));
@@ -166,8 +169,10 @@ void ActiveDaemon::tell_watchers() {
   told_recording_over_ = state.recording_over;
   const FaceState face = state.face ? state.face->state() : FaceState{};
   say_peer_.say(spdlog::level::info, state.peer.alive ? "peer connected" : "no peer");
-  say_camera_.say(state.camera_lost ? spdlog::level::warn : spdlog::level::info,
-                  state.camera_lost ? state.camera_problem : state.camera_open ? "camera open" : "camera closed");
+  say_camera_.say(state.camera_lost ? spdlog::level::warn : spdlog::level::info, state.camera_lost
+                                                                                     ? state.camera_problem
+                                                                                 : state.camera_open ? "camera open"
+                                                                                                     : "camera closed");
   if (face.open) {
     say_face_.say(face.problem.empty() ? spdlog::level::info : spdlog::level::warn,
                   face.problem.empty() ? "face found" : face.problem);

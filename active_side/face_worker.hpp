@@ -26,8 +26,8 @@ struct FaceState {
 class FaceWorker {
  public:
   // Takes what it works with; `metrics` and `clock` outlive it.
-  FaceWorker(std::unique_ptr<ScreenGrabber> grabber, std::unique_ptr<FaceFinder> finder, const BodyMapStepConfig& config,
-             double rate_hz, const Clock& clock, MetricsRegistry& metrics);
+  FaceWorker(std::unique_ptr<ScreenGrabber> grabber, std::unique_ptr<FaceFinder> finder,
+             const BodyMapStepConfig& config, double rate_hz, const Clock& clock, MetricsRegistry& metrics);
   ~FaceWorker();
   FaceWorker(const FaceWorker&) = delete;
   FaceWorker& operator=(const FaceWorker&) = delete;

@@ -22,17 +22,17 @@ Result<std::unique_ptr<Rig>> make_rig(const ActiveConfig& config, const SessionI
                                       MetricsRegistry& metrics) {
   const std::filesystem::path path = rig_file(config.rig);
   if (!std::filesystem::exists(path)) {
-    return Error{fmt::format("there is no calibration yet ({}); make one with `telehug-active calibrate`",
-                             path.string())};
+    return Error{
+        fmt::format("there is no calibration yet ({}); make one with `telehug-active calibrate`", path.string())};
   }
   auto calibration = read_calibration(path);
   if (!calibration) return calibration.error();
   const ScreenSize& screen = calibration->screen;
   if (differs(config.rig.screen.width_mm, screen.width_mm) || differs(config.rig.screen.height_mm, screen.height_mm)) {
-    return Error{fmt::format("{} was made for a screen of {:.0f} x {:.0f} mm, but [rig] of the configuration says "
-                             "{:.0f} x {:.0f} mm; calibrate again or correct the configuration",
-                             path.string(), screen.width_mm, screen.height_mm, config.rig.screen.width_mm,
-                             config.rig.screen.height_mm)};
+    return Error{fmt::format(
+        "{} was made for a screen of {:.0f} x {:.0f} mm, but [rig] of the configuration says "
+        "{:.0f} x {:.0f} mm; calibrate again or correct the configuration",
+        path.string(), screen.width_mm, screen.height_mm, config.rig.screen.width_mm, config.rig.screen.height_mm)};
   }
   auto finder = make_haar_face_finder();
   if (!finder) return finder.error();
@@ -47,8 +47,7 @@ Result<std::unique_ptr<Rig>> make_rig(const ActiveConfig& config, const SessionI
   grabber.path = config.body_map.picture;
   auto face = std::make_shared<FaceWorker>(std::make_unique<PictureGrabber>(grabber, clock), *std::move(finder), step,
                                            config.body_map.rate_hz, clock, metrics);
-  return std::make_unique<Rig>(
-      Rig{ActivePipeline(*calibration, options, session, clock, metrics), std::move(face)});
+  return std::make_unique<Rig>(Rig{ActivePipeline(*calibration, options, session, clock, metrics), std::move(face)});
 }
 
 }  // namespace telehug

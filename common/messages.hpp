@@ -56,7 +56,8 @@ struct TouchEvent {
   std::int64_t frame_time_ns = 0;  // when the camera took the frame
   std::int64_t sent_time_ns = 0;
   std::uint32_t body_map_version = 0;
-  boost::container::static_vector<Contact, max_contacts> contacts;  // the whole state: what is not in it is not touching
+  boost::container::static_vector<Contact, max_contacts>
+      contacts;  // the whole state: what is not in it is not touching
   boost::container::static_vector<Transition, max_transitions> transitions;  // oldest first
 };
 
@@ -92,7 +93,7 @@ struct Heartbeat {
   Side side = Side::active;
   std::uint64_t sequence = 0;
   std::int64_t sent_time_ns = 0;
-  SessionId echo_session;            // empty: none heard yet
+  SessionId echo_session;              // empty: none heard yet
   std::int64_t echo_sent_time_ns = 0;  // the peer's own stamp
   std::int64_t echo_held_ns = 0;       // how long it lay here before this answer
 };

@@ -54,13 +54,13 @@ PassiveDaemon::PassiveDaemon(const PassiveConfig& config, JacketProfile profile,
       participant_(dds_settings(config.peer)),
       felt_writer_(participant_),
       peer_(participant_, Side::passive, session_, std::chrono::milliseconds(config.safety.heartbeat_timeout_ms)),
-      touch_reader_(std::make_unique<Reader<TouchEvent>>(participant_,
-                                                         [this](const TouchEvent& event) {
-                                                           events_received_.add();
-                                                           const bool replaced =
-                                                               newest_event_.put({event, clock_.now()});
-                                                           if (replaced) events_replaced_.add();
-                                                         })),
+      touch_reader_(
+          std::make_unique<Reader<TouchEvent>>(participant_,
+                                               [this](const TouchEvent& event) {
+                                                 events_received_.add();
+                                                 const bool replaced = newest_event_.put({event, clock_.now()});
+                                                 if (replaced) events_replaced_.add();
+                                               })),
       control_(std::make_unique<ControlServer>(control_options(config.control))) {
   answer_commands();
 }

@@ -34,7 +34,8 @@ const FeltAnswers& PassivePipeline::process(const TouchEvent& event, Timestamp n
   }
   if (touch != nullptr && stale) refuse(FeltOutcome::stale, *touch, now);
   if (touch != nullptr && !stale) {
-    plan_ = touch_to_drives(event, {touch->transitions.data(), touch->transitions.size()}, profile_, plan_, now, drive_duration_);
+    plan_ = touch_to_drives(event, {touch->transitions.data(), touch->transitions.size()}, profile_, plan_, now,
+                            drive_duration_);
     const Timestamp planned = clock_.now();
     const SafetyVerdict verdict = safety_.apply(plan_.drives, now);
     answer(verdict, event, now);
@@ -51,7 +52,9 @@ void PassivePipeline::answer(const SafetyVerdict& verdict, const TouchEvent& eve
   for (const ContactAnswer& planned : plan_.answers) {
     FeltOutcome outcome = planned.outcome;
     if (outcome == FeltOutcome::driven) {
-      outcome = verdict.outcome == FeltOutcome::driven ? verdict.outcome_at({planned.actuators.data(), planned.actuators.size()}) : verdict.outcome;
+      outcome = verdict.outcome == FeltOutcome::driven
+                    ? verdict.outcome_at({planned.actuators.data(), planned.actuators.size()})
+                    : verdict.outcome;
     }
     if (!is_news(planned, outcome)) continue;
     Felt& felt = answers_.emplace_back();

@@ -17,7 +17,8 @@ namespace telehug {
 
 using FeltAnswers = boost::container::static_vector<Felt, max_contacts + max_transitions>;
 
-// From a touch event to the bytes for the jacket: every stage of the passive side but the two wires. One thread uses it.
+// From a touch event to the bytes for the jacket: every stage of the passive side but the two wires. One thread uses
+// it.
 class PassivePipeline {
  public:
   // `profile`, `safety`, `clock`, `metrics` outlive it.

@@ -63,8 +63,7 @@ Result<Calibration> from_recording(const std::filesystem::path& folder, const st
 
 Result<Calibration> from_virtual_rig(const VirtualRigSettings& settings, const std::vector<int>& frames) {
   const ScratchFolder scratch;
-  const Status exported =
-      export_rig_directory(settings, scratch.path(), {.sequence_frames = 0, .single_frames = 0});
+  const Status exported = export_rig_directory(settings, scratch.path(), {.sequence_frames = 0, .single_frames = 0});
   if (!exported) return exported.error();
   auto calibration = from_recording(scratch.path(), frames);
   if (calibration) calibration->camera = "virtual";

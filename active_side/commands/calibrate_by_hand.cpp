@@ -102,9 +102,10 @@ Result<MeasuredTouch> measure(FrameSource& camera, const BorderLine& border, con
   });
   if (!read) return read.error();
   if (lengths.size() < least_frames_with_finger) {
-    return Error{fmt::format("a finger was seen in only {} of {} pictures: put it flat on the dot, from below, with the "
-                             "other fingers folded away, and begin again",
-                             lengths.size(), frames_measured)};
+    return Error{
+        fmt::format("a finger was seen in only {} of {} pictures: put it flat on the dot, from below, with the "
+                    "other fingers folded away, and begin again",
+                    lengths.size(), frames_measured)};
   }
   return MeasuredTouch{point, median(lengths), median(columns)};
 }

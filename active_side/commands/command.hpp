@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The subcommands of `telehug-active`, one a file. Each adds itself to the command line and, when it is the one that was
-// asked for, leaves how it ended in `result`.
+// The subcommands of `telehug-active`, one a file. Each adds itself to the command line and, when it is the one that
+// was asked for, leaves how it ended in `result`.
 #pragma once
 
 #include <fmt/core.h>

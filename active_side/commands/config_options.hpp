@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "commands/command.hpp"
 #include "capture/make_frame_source.hpp"
+#include "commands/command.hpp"
 #include "config/load.hpp"
 
 namespace telehug {

@@ -48,7 +48,8 @@ Result<int> record(FrameSource& camera, const Options& options, Signals& signals
   times << "frame,monotonic_ns\n";
   Frame frame;
   int count = 0;
-  const Timestamp end = clock.now() + std::chrono::duration_cast<Duration>(std::chrono::duration<double>(options.seconds));
+  const Timestamp end =
+      clock.now() + std::chrono::duration_cast<Duration>(std::chrono::duration<double>(options.seconds));
   while (clock.now() < end && signals.take() != SignalRequest::stop) {
     const ReadOutcome outcome = camera.read(frame, 200ms);
     if (outcome == ReadOutcome::ended) break;
@@ -78,8 +79,8 @@ ExitCode run(const Options& options) {
   if (auto written = write_rig_toml(options.folder, *config); !written) return fail(ExitCode::device, written.error());
 
   const SteadyClock clock;
-  auto camera =
-      make_frame_source(options.source.empty() ? config->camera.source : options.source, capture_settings(*config), clock);
+  auto camera = make_frame_source(options.source.empty() ? config->camera.source : options.source,
+                                  capture_settings(*config), clock);
   if (!camera) return fail(ExitCode::config, camera.error());
   if (const Status opened = (*camera)->open(); !opened) return fail(ExitCode::device, opened.error());
   fmt::print("recording {} to {} for {:.0f} s; these are pictures of your desk and hands\n", (*camera)->name(),

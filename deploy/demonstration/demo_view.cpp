@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "demo_view.hpp"
+
+#include <fmt/core.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cstdio>
+
+#include "jacket/body_picture.hpp"
+
+namespace telehug {
+namespace {
+
+constexpr int columns = 5;
+constexpr int most_rows = 7;
+constexpr int grid_width = 5 * columns + 3;
+constexpr const char* highlighted = "\x1b[30;43m";
+constexpr const char* plain = "\x1b[0m";
+
+// One line of the grid as the toucher sees it.
+std::string grid_line(int row, int rows, int touched) {
+  if (row >= rows) return std::string(grid_width, ' ');
+  std::string line;
+  for (int column = 0; column < columns; ++column) {
+    const int box = row * columns + column + 1;
+    const std::string cell = fmt::format("[{:>2}]", box);
+    line += box == touched ? highlighted + cell + plain : cell;
+    line += ' ';
+  }
+  return line + std::string(grid_width - 5 * columns, ' ');
+}
+
+}  // namespace
+
+DemoView::DemoView(const JacketProfile& profile, bool in_place) : profile_(profile), in_place_(in_place) {
+  if (in_place_) draw();
+}
+
+DemoView::~DemoView() {
+  if (in_place_) fmt::print("\n");
+}
+
+void DemoView::show(const nlohmann::json& event) {
+  const std::string kind = event.value("event", "");
+  const bool active = event.value("side", "") == "active";
+  if (kind == "touch" && active) {
+    const std::string phase = event.at("phase");
+    const int box = event.at("box");
+    rows_ = std::min<int>(event.at("rows"), most_rows);
+    const bool news = phase != "move" || box != touched_box_;
+    touched_box_ = phase == "up" ? 0 : box;
+    last_touch_ = fmt::format("contact {} {:<4} box {:>2} at {:.0f}, {:.0f} mm", event.at("contact").get<int>(), phase,
+                              box, event.at("x_mm").get<double>(), event.at("y_mm").get<double>());
+    if (news) say("touched  " + last_touch_);
+  } else if (kind == "felt" && !active) {
+    last_felt_ = fmt::format("contact {} box {:>2} {} at motors {}", event.at("contact").get<int>(),
+                             event.at("box").get<int>(), event.at("outcome").get<std::string>(),
+                             fmt::join(event.at("actuators").get<std::vector<int>>(), ", "));
+    if (event.at("phase") != "up") say("felt     " + last_felt_);
+  } else if (kind == "running") {
+    running_ = event.at("actuators").get<std::vector<std::uint8_t>>();
+    say(running_.empty() ? "motors   all off" : fmt::format("motors   {} run", fmt::join(running_, ", ")));
+  } else {
+    return;
+  }
+  if (in_place_) draw();
+}
+
+void DemoView::say(const std::string& line) {
+  if (in_place_) return;
+  fmt::print("{}\n", line);
+  (void)std::fflush(stdout);
+}
+
+void DemoView::draw() {
+  const auto body = body_picture(profile_, running_);
+  if (drawn_) fmt::print("\x1b[{}F", body.size() + 3);
+  drawn_ = true;
+  fmt::print("\x1b[2K   the child's picture          the jacket\n");
+  for (std::size_t i = 0; i < body.size(); ++i)
+    fmt::print("\x1b[2K   {}{}\n", grid_line(static_cast<int>(i) - 2, i < 2 ? 0 : rows_, touched_box_), body[i]);
+  fmt::print("\x1b[2K   touched: {}\n\x1b[2K   felt:    {}\n", last_touch_, last_felt_);
+  (void)std::fflush(stdout);
+}
+
+}  // namespace telehug
