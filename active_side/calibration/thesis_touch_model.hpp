@@ -9,6 +9,7 @@
 // roll, yaw or pitch; facts on its error on real rigs: 0.6 mm vertically, 3.5 mm horizontally with perfect tips.
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <optional>
 
@@ -23,6 +24,14 @@ struct MeasuredTouch {
   double length_px = 0;  // finger past the image of the screen's bottom edge (thesis: l1, l2), > 0
   double column_px = 0;  // of the tip, signed, from the image centre, positive to the right (thesis: u_S, u_D2)
 };
+
+// The points that the thesis has touched: the screen's middle, 100 mm below the top, and 30 mm right of the middle, 220
+// mm below it, on a screen 300 mm high; on others at the same parts of the height. Any other two will do.
+[[nodiscard]] constexpr std::array<ScreenPoint, 2> default_calibration_points(const ScreenSize& screen) noexcept {
+  const double middle_mm = screen.width_mm / 2;
+  return {ScreenPoint{middle_mm, screen.height_mm * 100 / 300},
+          ScreenPoint{middle_mm + 30, screen.height_mm * 220 / 300}};
+}
 
 // Millimetres unless said otherwise; the thesis' names in brackets.
 class ThesisTouchModel {

@@ -6,8 +6,11 @@
 #include <gtest/gtest.h>
 #include <stdlib.h>
 
+#include <cmath>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <opencv2/core.hpp>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -110,6 +113,30 @@ TEST_P(TouchSamples, CalibrateBothRigsWithTwoTouches) {
     ASSERT_TRUE(read.ok()) << read.error().message;
     EXPECT_DOUBLE_EQ(read->model.camera_below_top_mm(), calibration->model.camera_below_top_mm());
   }
+}
+
+// With the screen lit and a triangle on it, the border is the screen's own edge, not its mirror image.
+TEST_P(TouchSamples, GiveTheScreensOwnEdgeWithATriangle) {
+  const BorderLine edge{519.1, 0.0074};
+  const Folder folder;
+  fs::copy(GetParam() / "rig1", folder / "rig", fs::copy_options::recursive);
+  auto picture = read_picture(folder / "rig/background.jpg");
+  ASSERT_TRUE(picture.ok());
+  for (int u = 0; u < picture->cols; ++u) {
+    for (int v = static_cast<int>(edge.v_at(u)) + 1; v < picture->rows; ++v) {
+      const bool in_triangle = std::abs(u - 700) < 2 * (v - edge.v_at(u)) && v - edge.v_at(u) < 100;
+      picture->at<cv::Vec3b>(v, u) = cv::Vec3b::all(in_triangle ? 12 : 235);
+    }
+  }
+  ASSERT_TRUE(write_png(folder / "rig/triangle.png", *picture).ok());
+  const auto rig = open_rig_directory(folder / "rig");
+  ASSERT_TRUE(rig.ok()) << rig.error().message;
+  const auto calibration = calibrate_from_recording(*rig, {}, "2026-01-01T00:00:00Z");
+  ASSERT_TRUE(calibration.ok()) << calibration.error().message;
+  EXPECT_NEAR(calibration->border.v_at(100), edge.v_at(100), 2);
+  EXPECT_NEAR(calibration->border.v_at(1200), edge.v_at(1200), 2);
+  // The camera sits near the screen's top edge.
+  EXPECT_NEAR(calibration->model.camera_below_top_mm(), 0, 60);
 }
 
 TEST_P(TouchSamples, HoldASlidingFingerThatIsFound) {

@@ -115,6 +115,19 @@ TEST_F(ThesisModel, SolvesTheTouchesOfTheThesisInEitherOrder) {
   EXPECT_NEAR(swapped->camera_below_top_mm(), 12, 1e-9);
 }
 
+TEST_F(ThesisModel, IsCalibratedWithThePointsOfTheThesis) {
+  const auto points = default_calibration_points(rig_.screen);
+  EXPECT_DOUBLE_EQ(points[0].x_mm, 190);
+  EXPECT_DOUBLE_EQ(points[0].y_mm, 100);
+  EXPECT_DOUBLE_EQ(points[1].x_mm, 220);
+  EXPECT_DOUBLE_EQ(points[1].y_mm, 220);
+  for (const ScreenSize& screen : {ScreenSize{408, 255, 1440, 900}, ScreenSize{700, 390, 3840, 2160}}) {
+    const AlignedRig rig{screen, 150, -12, 950.0 * 40, -950};
+    const auto [first, second] = default_calibration_points(screen);
+    EXPECT_TRUE(ThesisTouchModel::solve(screen, rig.project(first), rig.project(second)).ok());
+  }
+}
+
 TEST_F(ThesisModel, PlacesAFingerOfNoLengthOnTheBottomEdge) {
   const auto model = ThesisTouchModel::solve(rig_.screen, first_, second_);
   ASSERT_TRUE(model.ok());
