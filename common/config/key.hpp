@@ -40,7 +40,8 @@ struct Key {
   std::string_view unit;  // empty: none
   Limits limits;
   std::string_view help;
-  std::string origin = {};  // "file:line" or the flag that set it last; empty: still the default
+  // "file:line" or the flag that set it last; empty: still the default. The rows leave it out, which g++ wants said.
+  std::string origin = {};  // NOLINT(readability-redundant-member-init)
 
   [[nodiscard]] std::string path() const;
 };

@@ -14,7 +14,7 @@ namespace telehug {
 [[nodiscard]] std::filesystem::path rig_file(const RigConfig& config);
 
 // The jacket profile: as configured, else the installed one of the 16-motor jacket. A relative path that does not
-// exist from here, such as "legacy-16-motor.toml", is looked for among the installed profiles.
+// exist from here, such as "duemilanove-16.toml", is looked for among the installed profiles.
 [[nodiscard]] std::filesystem::path jacket_profile_file(const JacketConfig& config);
 
 }  // namespace telehug
