@@ -40,7 +40,7 @@ File open_log(const std::string& path) {
 std::filesystem::path default_firmware() {
   std::error_code ignored;
   const auto program = std::filesystem::read_symlink("/proc/self/exe", ignored);
-  const auto built = program.parent_path().parent_path() / "firmware" / "telehug-jacket.elf";
+  auto built = program.parent_path().parent_path() / "firmware" / "telehug-jacket.elf";
   if (std::filesystem::exists(built, ignored)) return built;
   return TELEHUG_INSTALLED_FIRMWARE;
 }
@@ -170,24 +170,24 @@ class Simulator {
 }  // namespace telehug
 
 int main(int argc, char** argv) {
-  telehug::Options options;
-  CLI::App app{
-      "The telehug jacket without a jacket: its firmware, simulated, behind a pseudo terminal.\n"
-      "SIGUSR1 cuts the firmware's input, and joins it again."};
-  app.add_option("--firmware", options.firmware,
-                 "ELF file of the firmware (default: the one built or installed with this)");
-  app.add_option("--link", options.link, "make this path a symbolic link to the terminal");
-  app.add_option("--pins", options.pins,
-                 "write here: monotonic_ns,cycle,channel,on|off for each motor that starts or ends");
-  app.add_option("--edges", options.edges,
-                 "write here: monotonic_ns,cycle,channel,high|low for each edge of a motor's pin");
-  app.add_flag("--die-with-parent", options.die_with_parent, "end when the program that started this one has ended");
-  CLI11_PARSE(app, argc, argv);
   try {
+    telehug::Options options;
+    CLI::App app{
+        "The telehug jacket without a jacket: its firmware, simulated, behind a pseudo terminal.\n"
+        "SIGUSR1 cuts the firmware's input, and joins it again."};
+    app.add_option("--firmware", options.firmware,
+                   "ELF file of the firmware (default: the one built or installed with this)");
+    app.add_option("--link", options.link, "make this path a symbolic link to the terminal");
+    app.add_option("--pins", options.pins,
+                   "write here: monotonic_ns,cycle,channel,on|off for each motor that starts or ends");
+    app.add_option("--edges", options.edges,
+                   "write here: monotonic_ns,cycle,channel,high|low for each edge of a motor's pin");
+    app.add_flag("--die-with-parent", options.die_with_parent, "end when the program that started this one has ended");
+    CLI11_PARSE(app, argc, argv);
     telehug::Simulator(options).run();
     return 0;
   } catch (const std::exception& problem) {
-    fmt::print(stderr, "telehug-jacket-sim: {}\n", problem.what());
+    std::fprintf(stderr, "telehug-jacket-sim: %s\n", problem.what());
     return 1;
   }
 }

@@ -9,6 +9,8 @@
 #include <sim_io.h>
 
 #include <algorithm>
+#include <cstdio>
+#include <cstdlib>
 #include <cstring>
 #include <deque>
 #include <stdexcept>
@@ -33,6 +35,24 @@ constexpr unsigned real_uart_depth = 3;
 void be_silent(avr_t*, const int level, const char* format, va_list arguments) {
   if (level == LOG_ERROR) std::vfprintf(stderr, format, arguments);
 }
+
+// What elf_read_firmware() has allocated and avr_load_firmware() has copied; libsimavr itself never frees it.
+struct LoadedElf {
+  elf_firmware_t content{};
+
+  LoadedElf() = default;
+  ~LoadedElf() {
+    std::free(content.flash);
+    std::free(content.eeprom);
+    std::free(content.fuse);
+    std::free(content.lockbits);
+    for (std::uint32_t i = 0; i < content.symbolcount; ++i)
+      std::free(content.symbol[i]);
+    std::free(content.symbol);
+  }
+  LoadedElf(const LoadedElf&) = delete;
+  LoadedElf& operator=(const LoadedElf&) = delete;
+};
 
 void do_not_sleep(avr_t*, avr_cycle_count_t) {}
 
@@ -81,7 +101,10 @@ struct SimulatedJacket::Machine {
   std::array<PortListener, wiring.size()> ports;
 
   explicit Machine(const std::filesystem::path& elf);
-  ~Machine() { avr_terminate(avr); }
+  ~Machine() {
+    avr_terminate(avr);
+    std::free(avr);
+  }
   Machine(const Machine&) = delete;
   Machine& operator=(const Machine&) = delete;
 
@@ -117,15 +140,15 @@ struct SimulatedJacket::Machine {
 
 SimulatedJacket::Machine::Machine(const std::filesystem::path& elf) {
   avr_global_logger_set(be_silent);
-  elf_firmware_t firmware{};
-  if (elf_read_firmware(elf.c_str(), &firmware) != 0) {
+  LoadedElf firmware;
+  if (elf_read_firmware(elf.c_str(), &firmware.content) != 0) {
     throw std::runtime_error("can't read the firmware " + elf.string() + ": build it, or name another with --firmware");
   }
   avr = avr_make_mcu_by_name("atmega328p");
   if (avr == nullptr) throw std::runtime_error("this libsimavr does not know the ATmega328P");
   avr_init(avr);
-  firmware.frequency = static_cast<std::uint32_t>(jacket_cycles_per_ms * 1000);
-  avr_load_firmware(avr, &firmware);
+  firmware.content.frequency = static_cast<std::uint32_t>(jacket_cycles_per_ms * 1000);
+  avr_load_firmware(avr, &firmware.content);
   avr->sleep = do_not_sleep;
 
   std::uint32_t flags = 0;

@@ -18,6 +18,7 @@ using ::testing::IsEmpty;
 
 constexpr std::uint8_t full = 255;
 constexpr std::uint8_t longest_10ms = 25;
+constexpr std::uint64_t ten_periods = 158'720;  // of 992 us
 
 TEST(FirmwareDrives, MovesNothingBeforeAHello) {
   VirtualJacket jacket;
@@ -195,7 +196,7 @@ TEST(FirmwareDrives, AreStrongerTheHigherTheIntensity) {
     jacket.say(FrameType::set, {9, static_cast<std::uint8_t>(intensity), longest_10ms});
     jacket.chip.run_ms(5);
     const auto from = jacket.chip.cycle();
-    jacket.chip.run_cycles(10 * 15872);  // ten periods of 992 us
+    jacket.chip.run_cycles(ten_periods);
     const double duty = jacket.duty_since(from, 9);
     const double level = std::max(1.0, std::round(intensity * 31 / 255.0));
     EXPECT_NEAR(duty, level / 31, 0.004) << "intensity " << intensity;
@@ -216,7 +217,7 @@ TEST(FirmwareDrives, KeepTheirStrengthOnEveryChannelAtOnce) {
   jacket.say(FrameType::set_all, payload);
   jacket.chip.run_ms(5);
   const auto from = jacket.chip.cycle();
-  jacket.chip.run_cycles(10 * 15872);
+  jacket.chip.run_cycles(ten_periods);
   for (std::uint8_t channel = 0; channel < 16; ++channel) {
     EXPECT_NEAR(jacket.duty_since(from, channel), channel * 17 / 255.0, 0.02) << "channel " << int{channel};
   }
