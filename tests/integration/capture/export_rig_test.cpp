@@ -14,6 +14,8 @@ namespace {
 TEST(ExportedRig, OpensAgainWithItsTruth) {
   const TemporaryFolder folder;
   VirtualRigSettings settings;
+  settings.image = {640, 360};
+  settings.focal_px = 550;
   settings.script = {{{0.5, 0.8, {170, 200}, {210, 220}}}, 1.3};
   ASSERT_TRUE(export_rig_directory(settings, folder.path(), {30, 4}));
 
@@ -23,7 +25,7 @@ TEST(ExportedRig, OpensAgainWithItsTruth) {
   EXPECT_EQ(rig->screen.height_px, settings.screen.height_px);
   ASSERT_TRUE(rig->background.has_value());
   ASSERT_TRUE(rig->triangle.has_value());
-  EXPECT_EQ(read_picture(*rig->triangle)->size(), cv::Size(1280, 720));
+  EXPECT_EQ(read_picture(*rig->triangle)->size(), cv::Size(640, 360));
   ASSERT_EQ(rig->calibration.size(), 9u);
   EXPECT_EQ(rig->calibration[0].screen.x_mm, 190);
 

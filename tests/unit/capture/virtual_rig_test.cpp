@@ -69,7 +69,7 @@ TEST(VirtualRig, DrawsTheFingertipWhereTheTruthSaysThatItTouches) {
     };
     EXPECT_NEAR(tip.v_px, projected(visible_end(settings, contact)).v_px, 1) << contact.x_mm << ", " << contact.y_mm;
     EXPECT_NEAR(tip.v_px, projected(contact).v_px, 2.5);
-    EXPECT_NEAR(tip.u_px, projected(contact).u_px, 6);  // the lowest pixel of a round end is broad
+    EXPECT_NEAR(tip.u_px, projected(contact).u_px, 8);  // a ball's outline far from the axis is an ellipse askew
   }
 }
 
