@@ -6,6 +6,7 @@
 #include "capture/recording.hpp"
 #include "capture/virtual_rig/virtual_rig.hpp"
 #include "capture/webcam.hpp"
+#include "capture/webcam_device.hpp"
 
 namespace telehug {
 namespace {

@@ -9,9 +9,10 @@
 #include <cerrno>
 #include <cmath>
 #include <cstring>
-#include <filesystem>
 #include <opencv2/imgproc.hpp>
 #include <utility>
+
+#include "capture/webcam_device.hpp"
 
 namespace telehug {
 namespace {
@@ -68,7 +69,7 @@ void Webcam::close() {
 
 Status Webcam::start() {
   const int fd = calls_.open(settings_.device);
-  if (fd < 0) return failure("opened", fd);
+  if (fd < 0) return webcam_failure(settings_.device, "opened", fd);
   fd_ = fd;
   for (const auto step : {&Webcam::check_device, &Webcam::choose_format, &Webcam::map_buffers, &Webcam::start_stream}) {
     if (Status done = (this->*step)(); !done) return done;
@@ -95,7 +96,7 @@ void Webcam::stop() {
 Status Webcam::check_device() {
   v4l2_capability capability{};
   if (const int code = calls_.ioctl(fd_, VIDIOC_QUERYCAP, &capability); code < 0)
-    return failure("asked what it is", code);
+    return webcam_failure(settings_.device, "asked what it is", code);
   const std::uint32_t can =
       (capability.capabilities & V4L2_CAP_DEVICE_CAPS) != 0 ? capability.device_caps : capability.capabilities;
   if ((can & V4L2_CAP_VIDEO_CAPTURE) == 0 || (can & V4L2_CAP_STREAMING) == 0) {
@@ -123,7 +124,7 @@ Status Webcam::try_format(std::uint32_t pixel_format) {
   format.fmt.pix.field = V4L2_FIELD_ANY;
   // The driver answers with the nearest that it offers, which may be another format altogether.
   if (const int code = calls_.ioctl(fd_, VIDIOC_S_FMT, &format); code < 0)
-    return failure("set to a picture format", code);
+    return webcam_failure(settings_.device, "set to a picture format", code);
   const v4l2_pix_format& got = format.fmt.pix;
   if (got.pixelformat != pixel_format) {
     return Error{fmt::format("{} delivers {} but neither MJPG nor YUYV; choose another webcam", settings_.device,
@@ -160,24 +161,27 @@ Status Webcam::map_buffers() {
   auto request = capture_struct<v4l2_requestbuffers>();
   request.count = wanted_buffers;
   request.memory = V4L2_MEMORY_MMAP;
-  if (const int code = calls_.ioctl(fd_, VIDIOC_REQBUFS, &request); code < 0) return failure("given buffers", code);
-  if (request.count < 2) return failure("given buffers", -ENOMEM);
+  if (const int code = calls_.ioctl(fd_, VIDIOC_REQBUFS, &request); code < 0)
+    return webcam_failure(settings_.device, "given buffers", code);
+  if (request.count < 2) return webcam_failure(settings_.device, "given buffers", -ENOMEM);
   for (std::uint32_t index = 0; index < request.count; ++index) {
     auto buffer = capture_struct<v4l2_buffer>();
     buffer.memory = V4L2_MEMORY_MMAP;
     buffer.index = index;
-    if (const int code = calls_.ioctl(fd_, VIDIOC_QUERYBUF, &buffer); code < 0) return failure("given buffers", code);
+    if (const int code = calls_.ioctl(fd_, VIDIOC_QUERYBUF, &buffer); code < 0)
+      return webcam_failure(settings_.device, "given buffers", code);
     void* address = calls_.map(fd_, buffer.length, buffer.m.offset);
-    if (address == nullptr) return failure("given buffers", -ENOMEM);
+    if (address == nullptr) return webcam_failure(settings_.device, "given buffers", -ENOMEM);
     buffers_.push_back({static_cast<std::uint8_t*>(address), buffer.length});
-    if (const int code = queue(index); code < 0) return failure("given buffers", code);
+    if (const int code = queue(index); code < 0) return webcam_failure(settings_.device, "given buffers", code);
   }
   return Done{};
 }
 
 Status Webcam::start_stream() {
   int type = V4L2_BUF_TYPE_VIDEO_CAPTURE;
-  if (const int code = calls_.ioctl(fd_, VIDIOC_STREAMON, &type); code < 0) return failure("started", code);
+  if (const int code = calls_.ioctl(fd_, VIDIOC_STREAMON, &type); code < 0)
+    return webcam_failure(settings_.device, "started", code);
   streaming_ = true;
   first_since_start_ = true;
   return Done{};
@@ -280,42 +284,6 @@ ReadOutcome Webcam::try_again(Timestamp deadline) {
   if (wake > now) calls_.wait(-1, wake - now);
   if (!wanted_ || clock_.now() < retry_.next(now)) return ReadOutcome::lost;
   return open() ? ReadOutcome::timeout : ReadOutcome::lost;
-}
-
-Error Webcam::failure(const char* doing, int code) const {
-  const std::string& device = settings_.device;
-  switch (-code) {
-    case ENOENT:
-    case ENODEV:
-    case ENXIO:
-      return Error{fmt::format("there is no webcam {}; plug it in or choose one of /dev/v4l/by-id", device)};
-    case EACCES:
-    case EPERM:
-      return Error{
-          fmt::format("{} must not be used by this user; add the user to the group 'video' (sudo usermod -aG "
-                      "video USER) and log in again",
-                      device)};
-    case EBUSY:
-      return Error{
-          fmt::format("{} is used by another program; close that one (perhaps the video chat shows this "
-                      "camera) or choose another webcam",
-                      device)};
-    case ENOTTY:
-    case EINVAL:
-      return Error{fmt::format("{} can't be {}: it is no webcam that telehug can use ({})", device, doing,
-                               std::strerror(-code))};
-    default:
-      return Error{fmt::format("{} can't be {}: {}", device, doing, std::strerror(-code))};
-  }
-}
-
-std::string first_webcam_device() {
-  std::vector<std::string> devices;
-  std::error_code none;
-  for (const auto& entry : std::filesystem::directory_iterator("/dev/v4l/by-id", none)) {
-    if (entry.path().string().ends_with("video-index0")) devices.push_back(entry.path().string());
-  }
-  return devices.empty() ? "/dev/video0" : *std::min_element(devices.begin(), devices.end());
 }
 
 }  // namespace telehug

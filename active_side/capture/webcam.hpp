@@ -74,7 +74,6 @@ class Webcam final : public FrameSource {
   ReadOutcome lose(int code);
   ReadOutcome try_again(Timestamp deadline);
   ReadOutcome broken(std::string why);
-  [[nodiscard]] Error failure(const char* doing, int code) const;
 
   WebcamSettings settings_;
   const Clock& clock_;
@@ -96,8 +95,5 @@ class Webcam final : public FrameSource {
   std::uint64_t skipped_frames_ = 0;
   std::string last_error_;
 };
-
-// The first webcam under /dev/v4l/by-id, in order of names; else /dev/video0.
-std::string first_webcam_device();
 
 }  // namespace telehug

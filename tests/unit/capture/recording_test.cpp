@@ -92,7 +92,8 @@ TEST_F(ARecording, GivesALateReaderTheNewestPictureAndShowsTheGap) {
 TEST_F(ARecording, BeginsAgainInALoopAfterTheUsualPause) {
   Recording source = recording(true, true);
   ASSERT_TRUE(source.open());
-  for (int i = 0; i < 4; ++i) ASSERT_EQ(source.read(frame_, 1s), ReadOutcome::frame);
+  for (int i = 0; i < 4; ++i)
+    ASSERT_EQ(source.read(frame_, 1s), ReadOutcome::frame);
   ASSERT_EQ(source.read(frame_, 1s), ReadOutcome::frame);
   EXPECT_EQ(picture_in(frame_), 1);
   EXPECT_EQ(frame_.sequence, 4u);
@@ -163,7 +164,8 @@ TEST_F(ARecording, MayBeAPlainFolderOfPicturesAt30FramesASecond) {
   settings.real_time = false;
   Recording source(settings, clock_);
   ASSERT_TRUE(source.open());
-  for (int i = 0; i < 4; ++i) ASSERT_EQ(source.read(frame_, 0ms), ReadOutcome::frame);
+  for (int i = 0; i < 4; ++i)
+    ASSERT_EQ(source.read(frame_, 0ms), ReadOutcome::frame);
   EXPECT_NEAR(to_ms(frame_.time - begin_), 100, 0.001);
 }
 
@@ -176,7 +178,8 @@ TEST(Recording, ReplaysTheSampleGesture) {
   ASSERT_TRUE(source.open());
   Frame frame;
   int frames = 0;
-  while (source.read(frame, 0ms) == ReadOutcome::frame) ++frames;
+  while (source.read(frame, 0ms) == ReadOutcome::frame)
+    ++frames;
   EXPECT_EQ(frames, 14);
   EXPECT_EQ(frame.bgr.cols, 1280);
 }

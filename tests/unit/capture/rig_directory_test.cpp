@@ -113,7 +113,8 @@ TEST(RigDirectory, NamesFileAndLineOfEveryFaultInTheTruth) {
 TEST(RigDirectory, WantsATimeForEveryPictureAndThatTimesRise) {
   const TemporaryFolder folder;
   folder.write("rig.toml", good_rig);
-  for (const char* name : {"sequence/1.jpg", "sequence/2.jpg", "sequence/3.jpg"}) folder.write(name, "");
+  for (const char* name : {"sequence/1.jpg", "sequence/2.jpg", "sequence/3.jpg"})
+    folder.write(name, "");
   folder.write("times.csv", "frame,monotonic_ns\n1,1000\n2,900\n");
   EXPECT_THAT(fault_of(folder), AllOf(HasSubstr("times.csv:1: picture 2 is not later"),
                                       HasSubstr("times.csv:1: no line tells the time of picture 3")));

@@ -12,7 +12,9 @@ namespace {
 
 using ::testing::HasSubstr;
 
-double largest_difference(const cv::Mat& a, const cv::Mat& b) { return cv::norm(a, b, cv::NORM_INF); }
+double largest_difference(const cv::Mat& a, const cv::Mat& b) {
+  return cv::norm(a, b, cv::NORM_INF);
+}
 
 TEST(JpegDecoder, GivesBlueGreenRed) {
   JpegDecoder decoder;

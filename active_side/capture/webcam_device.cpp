@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "capture/webcam_device.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <vector>
+
+namespace telehug {
+
+Error webcam_failure(const std::string& device, const char* doing, int code) {
+  switch (-code) {
+    case ENOENT:
+    case ENODEV:
+    case ENXIO:
+      return Error{fmt::format("there is no webcam {}; plug it in or choose one of /dev/v4l/by-id", device)};
+    case EACCES:
+    case EPERM:
+      return Error{
+          fmt::format("{} must not be used by this user; add the user to the group 'video' (sudo usermod -aG "
+                      "video USER) and log in again",
+                      device)};
+    case EBUSY:
+      return Error{
+          fmt::format("{} is used by another program; close that one (perhaps the video chat shows this "
+                      "camera) or choose another webcam",
+                      device)};
+    case ENOTTY:
+    case EINVAL:
+      return Error{fmt::format("{} can't be {}: it is no webcam that telehug can use ({})", device, doing,
+                               std::strerror(-code))};
+    default:
+      return Error{fmt::format("{} can't be {}: {}", device, doing, std::strerror(-code))};
+  }
+}
+
+std::string first_webcam_device() {
+  std::vector<std::string> devices;
+  std::error_code none;
+  for (const auto& entry : std::filesystem::directory_iterator("/dev/v4l/by-id", none)) {
+    if (entry.path().string().ends_with("video-index0")) devices.push_back(entry.path().string());
+  }
+  return devices.empty() ? "/dev/video0" : *std::min_element(devices.begin(), devices.end());
+}
+
+}  // namespace telehug

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "capture/virtual_rig/export_rig.hpp"
+
+#include <gtest/gtest.h>
+
+#include "capture/rig_directory.hpp"
+#include "doubles/fake_clock.hpp"
+#include "doubles/temporary_folder.hpp"
+#include "pictures/picture_file.hpp"
+
+namespace telehug {
+namespace {
+
+TEST(ExportedRig, OpensAgainWithItsTruth) {
+  const TemporaryFolder folder;
+  VirtualRigSettings settings;
+  settings.image = {640, 360};
+  settings.focal_px = 550;
+  settings.script = {{{0.5, 0.8, {170, 200}, {210, 220}}}, 1.3};
+  ASSERT_TRUE(export_rig_directory(settings, folder.path(), {30, 4}));
+
+  const auto rig = open_rig_directory(folder.path());
+  ASSERT_TRUE(rig) << rig.error().message;
+  EXPECT_EQ(rig->screen.width_mm, settings.screen.width_mm);
+  EXPECT_EQ(rig->screen.height_px, settings.screen.height_px);
+  ASSERT_TRUE(rig->background.has_value());
+  ASSERT_TRUE(rig->triangle.has_value());
+  EXPECT_EQ(read_picture(*rig->triangle)->size(), cv::Size(640, 360));
+  ASSERT_EQ(rig->calibration.size(), 9u);
+  EXPECT_EQ(rig->calibration[0].screen.x_mm, 190);
+
+  ASSERT_NE(rig->part("frames"), nullptr);
+  EXPECT_EQ(rig->part("frames")->frames.size(), 4u);
+  EXPECT_TRUE(rig->part("frames")->truth[0].contact);
+  EXPECT_TRUE(rig->part("frames")->truth[2].hover_mm.has_value());
+  EXPECT_FALSE(rig->part("frames")->truth[3].screen.has_value());
+
+  const RigPart* sequence = rig->part("sequence");
+  ASSERT_NE(sequence, nullptr);
+  ASSERT_EQ(sequence->frames.size(), 30u);
+  ASSERT_EQ(sequence->times.size(), 30u);
+  EXPECT_NEAR(to_ms(sequence->times[29] - sequence->times[0]), 29 / 0.03, 0.01);
+  FakeClock clock;
+  const VirtualRig virtual_rig(settings, clock);
+  for (std::size_t i = 0; i < 30; ++i) {
+    const VirtualTruth truth = virtual_rig.truth(i);
+    EXPECT_EQ(sequence->truth[i].contact, truth.contact);
+    if (truth.screen) {
+      EXPECT_NEAR(sequence->truth[i].screen->x_mm, truth.screen->x_mm, 0.006);
+    }
+  }
+}
+
+TEST(ExportedRig, SaysWhereItCantBeWritten) {
+  const Status written = export_rig_directory({}, "/proc/nowhere");
+  ASSERT_FALSE(written);
+  EXPECT_NE(written.error().message.find("/proc/nowhere"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace telehug
