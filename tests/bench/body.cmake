@@ -1,6 +1,4 @@
 # SPDX-License-Identifier: Apache-2.0
-find_package(CLI11 REQUIRED)
-find_package(nlohmann_json 3.11 REQUIRED)
 telehug_program(bench_face SOURCES bench/body_map/bench_face.cpp
   DEPS active_body_map telehug_pictures opencv::imgproc fmt::fmt CLI11::CLI11 nlohmann_json::nlohmann_json)
 target_include_directories(bench_face PRIVATE ${PROJECT_SOURCE_DIR}/tests)

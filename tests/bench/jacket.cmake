@@ -1,6 +1,4 @@
 # SPDX-License-Identifier: Apache-2.0
-find_package(CLI11 REQUIRED)
-find_package(nlohmann_json 3.11 REQUIRED)
 telehug_program(bench_jacket SOURCES bench/jacket/bench_jacket.cpp
   DEPS passive_jacket passive_safety fmt::fmt CLI11::CLI11 nlohmann_json::nlohmann_json)
 target_include_directories(bench_jacket PRIVATE ${PROJECT_SOURCE_DIR}/tests)

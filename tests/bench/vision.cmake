@@ -1,5 +1,4 @@
 # SPDX-License-Identifier: Apache-2.0
-find_package(nlohmann_json REQUIRED)
 telehug_program(bench_touch SOURCES bench/touch/bench_touch.cpp doubles/allocation_counter.cpp
   DEPS active_calibration active_eval active_finger active_touch telehug_pictures fmt::fmt
        nlohmann_json::nlohmann_json)
