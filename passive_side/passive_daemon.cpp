@@ -110,7 +110,10 @@ void PassiveDaemon::drive_loop() {
 }
 
 void PassiveDaemon::hear_peer(Timestamp now) {
-  if (peer_.serve(now)) safety_.on_heartbeat(now);
+  const auto heartbeat = peer_.serve(now);
+  if (!heartbeat) return;
+  safety_.on_heartbeat(now);
+  pipeline_.observe(*heartbeat, now);
 }
 
 void PassiveDaemon::follow_stops(Timestamp now) {

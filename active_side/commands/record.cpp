@@ -35,7 +35,7 @@ Status write_rig_toml(const std::filesystem::path& folder, const ActiveConfig& c
   ScreenSize screen = config.rig.screen;
   if (const auto calibration = read_calibration(rig_file(config.rig)); calibration) screen = calibration->screen;
   if (!(screen.width_mm > 0) || !(screen.height_mm > 0)) {
-    return Error{"how large is the screen? Calibrate first, or set rig.width_mm and rig.height_mm"};
+    return Error{"how large is the screen? Calibrate first, or set rig.screen_width_mm and rig.screen_height_mm"};
   }
   const std::string text = fmt::format("width_mm = {}\nheight_mm = {}\nresolution = [{}, {}]\n", screen.width_mm,
                                        screen.height_mm, screen.width_px, screen.height_px);

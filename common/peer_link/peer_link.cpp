@@ -22,14 +22,12 @@ PeerLink::PeerLink(DdsParticipant& participant, Side side, const SessionId& sess
       status_reader_(participant, [this](const SideStatus& status) { status_slot_.put(status); }),
       stop_reader_(participant, [this](const StopAll& stop) { stopped_by_peer_ = stop.stop; }) {}
 
-bool PeerLink::serve(Timestamp now) {
-  bool fresh = false;
-  if (const auto heartbeat = heartbeat_slot_.take()) {
-    fresh = monitor_.heard(*heartbeat, now);
-    if (fresh) exchange_.heard(*heartbeat, now);
-  }
+std::optional<Heartbeat> PeerLink::serve(Timestamp now) {
+  auto heartbeat = heartbeat_slot_.take();
+  if (heartbeat && !monitor_.heard(*heartbeat, now)) heartbeat.reset();
+  if (heartbeat) exchange_.heard(*heartbeat, now);
   if (now >= exchange_.next_due()) heartbeat_writer_.write(exchange_.beat(now));
-  return fresh;
+  return heartbeat;
 }
 
 PeerState PeerLink::state(Timestamp now) {

@@ -33,8 +33,8 @@ class PeerLink {
 
   // --- pipeline's thread ---
 
-  // Takes in what came and sends what is due. True: a fresh heartbeat of the peer was among it.
-  bool serve(Timestamp now);
+  // Takes in what came and sends what is due. The peer's newest heartbeat, if a fresh one was among it.
+  std::optional<Heartbeat> serve(Timestamp now);
 
   [[nodiscard]] bool alive(Timestamp now) noexcept { return monitor_.alive(now); }
   [[nodiscard]] const SessionId& peer_session() const noexcept { return monitor_.session(); }
