@@ -64,9 +64,9 @@ DdsParticipant::Impl::~Impl() {
   dds::DomainParticipantFactory::get_instance()->delete_participant(participant);
 }
 
-dds::Topic* DdsParticipant::Impl::find_or_create(const std::string& name, dds::TypeSupport type) {
+dds::Topic* DdsParticipant::Impl::find_or_create(const std::string& name, const dds::TypeSupport& type) {
   if (auto* known = dynamic_cast<dds::Topic*>(participant->lookup_topicdescription(name))) return known;
-  const std::string type_name = type.get_type_name();
+  const std::string& type_name = type.get_type_name();
   if (participant->find_type(type_name).empty()) type.register_type(participant);
   dds::Topic* created = participant->create_topic(name, type_name, dds::TOPIC_QOS_DEFAULT);
   if (created == nullptr) throw std::runtime_error(fmt::format("DDS refused the topic {}", name));
