@@ -17,7 +17,8 @@ struct DdsSettings {
   std::uint32_t domain_id = 0;        // 0..max_domain_id; the same on both sides
   std::string partition = "telehug";  // only equal partitions meet; not empty, no wildcards
   bool loopback_only = true;          // binds to 127.0.0.1 and sends to nothing else
-  std::vector<std::string> peers = {};  // IPv4 addresses for networks without multicast; only if not loopback_only
+  // IPv4 addresses, for networks without multicast; only if not loopback_only. (g++ wants the initializer.)
+  std::vector<std::string> peers = {};  // NOLINT(readability-redundant-member-init)
 };
 
 }  // namespace telehug

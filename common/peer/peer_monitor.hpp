@@ -35,7 +35,7 @@ class PeerMonitor {
   Duration timeout_;
   SessionSuccession sessions_;
   std::uint64_t last_sequence_ = 0;
-  Timestamp last_heard_{};
+  Timestamp last_heard_;
   bool alive_ = false;
   std::uint64_t losses_ = 0;
   std::uint64_t ignored_ = 0;

@@ -3,6 +3,7 @@
 // A peer that is matched but sends rubbish: a writer with telehug's topic and type names whose payloads are any bytes.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstring>
 #include <fastdds/dds/publisher/DataWriter.hpp>
 #include <functional>
@@ -35,7 +36,7 @@ class RawType : public dds::TopicDataType {
   }
   bool serialize(void* data, rtps::SerializedPayload_t* payload) override {
     const Bytes& bytes = *static_cast<Bytes*>(data);
-    std::memcpy(payload->data, bytes.data(), bytes.size());
+    std::copy(bytes.begin(), bytes.end(), payload->data);
     payload->length = static_cast<std::uint32_t>(bytes.size());
     return true;
   }
