@@ -32,7 +32,7 @@ struct ControlServerOptions {
   std::filesystem::path socket;
   std::string group;  // see ControlSocket
   std::size_t most_clients = 16;
-  std::size_t most_request_bytes = 64 * 1024;
+  std::size_t most_request_bytes = 65'536;
   std::size_t most_waiting_events = 256;  // per watcher
   Duration half_request_timeout = 10s;    // from a request's first byte to its end
   Duration idle_timeout = 60s;            // without a request, unless watching

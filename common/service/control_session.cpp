@@ -35,7 +35,7 @@ void ControlSession::turn_away(const std::string& why) {
 void ControlSession::close() {
   if (std::exchange(closed_, true)) return;
   boost::system::error_code ignored;
-  socket_.close(ignored);
+  (void)socket_.close(ignored);
   read_timer_.cancel();
   write_timer_.cancel();
   host_.closed(shared_from_this());
