@@ -121,6 +121,7 @@ void on_set_all(const Frame& frame) {
 }
 
 void on_status(const Frame& frame) {
+  if (frame.length != 0) return refuse(frame, NackReason::bad_length);
   uint8_t telemetry[protocol::telemetry_bytes];
   put_u16(telemetry, frames_ok);
   put_u16(telemetry + 2, frames_malformed);

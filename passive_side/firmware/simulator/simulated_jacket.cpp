@@ -48,7 +48,7 @@ struct LoadedElf {
     std::free(content.lockbits);
     for (std::uint32_t i = 0; i < content.symbolcount; ++i)
       std::free(content.symbol[i]);
-    std::free(content.symbol);
+    std::free(static_cast<void*>(content.symbol));
   }
   LoadedElf(const LoadedElf&) = delete;
   LoadedElf& operator=(const LoadedElf&) = delete;

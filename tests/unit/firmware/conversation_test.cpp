@@ -73,6 +73,7 @@ TEST(FirmwareConversation, RefusesAFrameAsAWholeWhenAnyPartIsWrong) {
   expect_nack(jacket.ask(FrameType::set), FrameType::set, NackReason::bad_length);
   expect_nack(jacket.ask(FrameType::set_all, FramePayload(17, full)), FrameType::set_all, NackReason::bad_length);
   expect_nack(jacket.ask(FrameType::keep, {1}), FrameType::keep, NackReason::bad_length);
+  expect_nack(jacket.ask(FrameType::status, {1}), FrameType::status, NackReason::bad_length);
   EXPECT_THAT(jacket.channels_that_rose_since(0), IsEmpty());
 }
 
@@ -124,6 +125,21 @@ TEST(FirmwareConversation, CountsBadFramesAndGoesOnWithTheNextGoodOne) {
   jacket.say_bytes(good_bytes);
   jacket.chip.run_ms(5);
   EXPECT_THAT(jacket.channels_that_rose_since(0), ElementsAre(6));
+}
+
+TEST(FirmwareConversation, TakesNoFrameThatIsOneByteTooLong) {
+  VirtualJacket jacket;
+  EncodedFrame longest = encode({FrameType::keep, 1, FramePayload(protocol::payload_max_bytes, 7)});
+  ASSERT_EQ(longest.size(), protocol::encoded_max_bytes);
+  jacket.say_bytes({longest.data(), longest.size()});
+  (void)jacket.hear(20);
+  EXPECT_EQ(jacket.telemetry().frames_malformed, 0);
+  longest.back() = 7;  // instead of the delimiter
+  jacket.say_bytes({longest.data(), longest.size()});
+  const std::vector<std::uint8_t> end{0};
+  jacket.say_bytes(end);
+  (void)jacket.hear(20);
+  EXPECT_EQ(jacket.telemetry().frames_malformed, 1);
 }
 
 TEST(FirmwareConversation, IsMovedByNoGarbageAndStillHearsAHelloAfterIt) {
