@@ -29,7 +29,7 @@ std::string lower_case(std::string text) {
 
 std::optional<fs::path> picture_named(const fs::path& folder, const std::string& name) {
   for (const char* extension : {".jpg", ".jpeg", ".png"}) {
-    const fs::path path = folder / (name + extension);
+    fs::path path = folder / (name + extension);
     std::error_code code;
     if (fs::is_regular_file(path, code)) return path;
   }

@@ -12,14 +12,27 @@
 
 #include <jerror.h>
 
+#include "pictures/jpeg_arena.hpp"
+
 namespace telehug {
 namespace {
 
 constexpr JDIMENSION max_side_px = 8192;
 
-// libjpeg calls these for the object whose `client_data` is the buffer to jump back to.
+// What the decoder's `client_data` points to.
+struct Client {
+  std::jmp_buf failed{};  // where to go on after a failure
+  JpegArena arena;
+};
+Client& client_of(j_common_ptr codec) {
+  return *static_cast<Client*>(codec->client_data);
+}
+JpegArena& arena_of(j_common_ptr codec) {
+  return client_of(codec).arena;
+}
+
 [[noreturn]] void fail(j_common_ptr codec) {
-  std::longjmp(*static_cast<std::jmp_buf*>(codec->client_data), 1);
+  std::longjmp(client_of(codec).failed, 1);
 }
 
 // Warnings come with level -1. Those that mean lost picture data end the decoding: half a hand must not look like a
@@ -45,16 +58,17 @@ void print_nothing(j_common_ptr /*codec*/) {}
 struct JpegDecoder::State {
   jpeg_decompress_struct codec{};
   jpeg_error_mgr errors{};
-  std::jmp_buf failed{};
+  Client client;
 
   State() {
     codec.err = jpeg_std_error(&errors);
     errors.error_exit = fail;
     errors.emit_message = judge_message;
     errors.output_message = print_nothing;
-    codec.client_data = &failed;
-    if (setjmp(failed) != 0) throw std::bad_alloc();  // the only way in which this call fails
+    codec.client_data = &client;
+    if (setjmp(client.failed) != 0) throw std::bad_alloc();  // the only way in which this call fails
     jpeg_create_decompress(&codec);
+    client.arena.serve<arena_of>(codec);
   }
   ~State() { jpeg_destroy_decompress(&codec); }
   State(const State&) = delete;
@@ -63,7 +77,7 @@ struct JpegDecoder::State {
   // The parts between which a C++ object (the picture's memory) is made; no object with a destructor lives in a
   // function that libjpeg jumps back to.
   bool read_header(std::span<const std::uint8_t> jpeg) {
-    if (setjmp(failed) != 0) return false;
+    if (setjmp(client.failed) != 0) return false;
     jpeg_abort_decompress(&codec);
     jpeg_mem_src(&codec, jpeg.data(), jpeg.size());
     jpeg_read_header(&codec, TRUE);
@@ -71,7 +85,7 @@ struct JpegDecoder::State {
     return true;
   }
   bool read_rows(cv::Mat& bgr) {
-    if (setjmp(failed) != 0) return false;
+    if (setjmp(client.failed) != 0) return false;
     jpeg_start_decompress(&codec);
     while (codec.output_scanline < codec.output_height) {
       JSAMPROW row = bgr.ptr(static_cast<int>(codec.output_scanline));

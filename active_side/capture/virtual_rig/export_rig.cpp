@@ -40,7 +40,7 @@ class RigExporter {
  private:
   Status write_setting(VirtualRig& rig) {
     const ScreenSize& screen = rig_settings_.screen;
-    const Status written =
+    Status written =
         write_text("rig.toml", fmt::format("width_mm = {}\nheight_mm = {}\nresolution = [{}, {}]\n", screen.width_mm,
                                            screen.height_mm, screen.width_px, screen.height_px));
     if (!written) return written;

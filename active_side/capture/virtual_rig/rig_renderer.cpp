@@ -65,7 +65,9 @@ RigRenderer::RigRenderer(const VirtualRigSettings& settings)
 
 void RigRenderer::show(const cv::Mat& picture) {
   scene_ = render_scene(settings_, camera_, picture);
-  cv::GaussianBlur(scene_.picture, blurred_scene_, blur_size, 0);
+  cv::Mat blurred;  // a new one: a copy of this renderer may still draw with the old one
+  cv::GaussianBlur(scene_.picture, blurred, blur_size, 0);
+  blurred_scene_ = blurred;
 }
 
 void RigRenderer::draw(const std::optional<FingerPlace>& finger, std::uint64_t noise_index, cv::Mat& bgr) {

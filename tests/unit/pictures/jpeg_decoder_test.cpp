@@ -34,6 +34,19 @@ TEST(JpegDecoder, KeepsTheMemoryOfThePicture) {
   EXPECT_EQ(bgr.data, data);
 }
 
+TEST(JpegDecoder, GivesEveryPictureRightWhateverCameBefore) {
+  JpegDecoder decoder;
+  for (const auto& [width_px, height_px] :
+       {std::pair{64, 48}, {400, 300}, {17, 9}, {400, 300}, {1280, 720}, {64, 48}}) {
+    const cv::Mat picture = sloping_picture(width_px, height_px);
+    cv::Mat used;
+    cv::Mat fresh;
+    ASSERT_TRUE(decoder.decode(jpeg_of(picture), used));
+    ASSERT_TRUE(JpegDecoder{}.decode(jpeg_of(picture), fresh));
+    EXPECT_EQ(largest_difference(used, fresh), 0);
+  }
+}
+
 TEST(JpegDecoder, DecodesPicturesWithoutHuffmanTables) {
   const cv::Mat picture = sloping_picture(64, 48);
   const auto complete = jpeg_of(picture);
