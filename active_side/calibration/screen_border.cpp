@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <optional>
 #include <utility>
 
@@ -81,11 +82,8 @@ std::vector<LevelLine> merge_by_level(std::vector<LineSegment> segments) {
       const auto at_level = [&line](const LineSegment& s) {
         return distance_px(line, s.left) <= same_level_px && distance_px(line, s.right) <= same_level_px;
       };
-      const auto others =
-          std::stable_partition(segments.begin(), segments.end(), [&](const LineSegment& s) { return !at_level(s); });
-      grown = others != segments.end();
-      members.insert(members.end(), others, segments.end());
-      segments.erase(others, segments.end());
+      std::copy_if(segments.begin(), segments.end(), std::back_inserter(members), at_level);
+      grown = std::erase_if(segments, at_level) > 0;
       if (grown) line = fit(members);
     }
     lines.push_back({line, covered_columns(members)});

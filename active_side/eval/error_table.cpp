@@ -80,7 +80,7 @@ void print_groups(Output out, const TouchScore& score, const std::string& title,
     if (const std::string key = of_rest(rest); !key.empty()) add(groups[key], rest);
   }
   for (const auto& [name, group] : groups)
-    print_row(out, title + " " + name, group);
+    print_row(out, fmt::format("{} {}", title, name), group);
 }
 
 void print_false_touches(Output out, const TouchScore& score) {

@@ -37,7 +37,8 @@ void AlignedPatch::cut(const cv::Mat& bgr, const BorderLine& border, int first_r
     }
     for (int row = 0; row < rows; ++row) {
       const int v = std::clamp(shift + first_row + row, 0, bgr.rows - 1);
-      std::memcpy(pixels_.data() + offset(row) + 3 * static_cast<std::size_t>(column), bgr.ptr<std::uint8_t>(v) + 3 * u,
+      std::memcpy(pixels_.data() + offset(row) + 3 * static_cast<std::size_t>(column),
+                  bgr.ptr<std::uint8_t>(v) + 3 * static_cast<std::size_t>(u),
                   3 * static_cast<std::size_t>(end - column));
     }
     column = end;

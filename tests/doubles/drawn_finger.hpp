@@ -27,7 +27,7 @@ class DrawnScene {
  public:
   DrawnScene(const BorderLine& border, ImageSize size)
       : border_(border), picture_(size.height_px, size.width_px, CV_8UC3) {
-    paint([this](int u, double row) {
+    paint([](int u, double row) {
       (void)u;
       if (row > 0) return screen_colour;
       return row > -bezel_px ? bezel_colour : desk_colour;

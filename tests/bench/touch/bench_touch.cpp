@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
@@ -131,7 +132,7 @@ Figure measure_preprocessing(const Recording& recording) {
     patch.cut(picture, calibration.border, first_row, 3 + 2 * margin_px, -margin_px, columns);
     patch.erode_dilate_smooth();
     if (!fingers.empty()) {
-      const int first = static_cast<int>(fingers[0].left_px + 0.5);
+      const int first = static_cast<int>(std::lround(fingers[0].left_px + 0.5));
       const int width = static_cast<int>(fingers[0].right_px - fingers[0].left_px);
       const int last_row = calibration.image.height_px - static_cast<int>(calibration.border.v_at(first));
       patch.cut(picture, calibration.border, first_row, last_row - first_row + margin_px, first - margin_px,

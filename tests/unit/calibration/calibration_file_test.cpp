@@ -22,14 +22,12 @@ using testing::HasSubstr;
 
 class CalibrationFile : public testing::Test {
  protected:
-  CalibrationFile() {
+  void SetUp() override {
     std::string name = (fs::temp_directory_path() / "telehug-calibration-XXXXXX").string();
     folder_ = ::mkdtemp(name.data());
     file_ = folder_ / "rig.toml";
   }
-  ~CalibrationFile() override { fs::remove_all(folder_); }
-  CalibrationFile(const CalibrationFile&) = delete;
-  CalibrationFile& operator=(const CalibrationFile&) = delete;
+  void TearDown() override { fs::remove_all(folder_); }
 
   static Calibration calibration() {
     const AlignedRig rig{{380, 300, 1280, 1024}, 187, -8, 950.0 * 40, -950};
