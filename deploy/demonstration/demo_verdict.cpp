@@ -49,17 +49,18 @@ std::map<int, std::vector<Span>> allowed_spans(const DemoRecord& record, const J
 }
 
 bool ran_within(const std::vector<PinChange>& pins, int channel, const Span& span) {
-  std::optional<std::int64_t> started;
+  constexpr std::int64_t off = -1;
+  std::int64_t started_ns = off;
   for (const PinChange& change : pins) {
     if (change.channel != channel) continue;
     if (change.on) {
-      started = change.time_ns;
-    } else if (started) {
-      if (*started <= span.end_ns && change.time_ns >= span.begin_ns) return true;
-      started.reset();
+      started_ns = change.time_ns;
+    } else if (started_ns != off) {
+      if (started_ns <= span.end_ns && change.time_ns >= span.begin_ns) return true;
+      started_ns = off;
     }
   }
-  return started && *started <= span.end_ns;
+  return started_ns != off && started_ns <= span.end_ns;
 }
 
 void check_answers(const DemoRecord& record, const JacketProfile& profile, std::vector<std::string>& faults) {

@@ -47,7 +47,7 @@ void DemoView::show(const nlohmann::json& event) {
   if (kind == "touch" && active) {
     const std::string phase = event.at("phase");
     const int box = event.at("box");
-    rows_ = std::min<int>(event.at("rows"), most_rows);
+    rows_ = std::min(event.at("rows").get<int>(), most_rows);
     const bool news = phase != "move" || box != touched_box_;
     touched_box_ = phase == "up" ? 0 : box;
     last_touch_ = fmt::format("contact {} {:<4} box {:>2} at {:.0f}, {:.0f} mm", event.at("contact").get<int>(), phase,
