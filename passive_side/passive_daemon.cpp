@@ -90,9 +90,9 @@ ExitCode PassiveDaemon::run(Signals& signals) {
 void PassiveDaemon::drive_loop() {
   while (!ending_) {
     const auto arrival = newest_event_.wait_and_take(clock_.now() + drive_round);
-    const Timestamp now = clock_.now();
-    hear_peer(now);
-    follow_stops(now);
+    // The safety stage takes a time that goes back for a fault: each call gets the present one.
+    hear_peer(clock_.now());
+    follow_stops(clock_.now());
     if (arrival) {
       for (const Felt& felt : pipeline_.process(arrival->event, arrival->time)) {
         felt_writer_.write(felt);
@@ -101,6 +101,7 @@ void PassiveDaemon::drive_loop() {
       }
       total_latency_.record(clock_.now() - arrival->time);
     }
+    const Timestamp now = clock_.now();
     safety_.tick(now);
     tell_running(now);
     tell_state(now);

@@ -22,27 +22,27 @@ PassivePipeline::PassivePipeline(const JacketProfile& profile, SafetyStage& safe
       plan_latency_(metrics.latency("plan")),
       drive_latency_(metrics.latency("drive")) {}
 
-const FeltAnswers& PassivePipeline::process(const TouchEvent& event, Timestamp now) {
+const FeltAnswers& PassivePipeline::process(const TouchEvent& event, Timestamp received) {
   answers_.clear();
   const OrderedTouch* touch = order_.accept(event);
-  const bool stale = touch != nullptr && staleness_.is_stale(event, now);
+  const bool stale = touch != nullptr && staleness_.is_stale(event, received);
   const Timestamp ordered = clock_.now();
   if (touch != nullptr && touch->new_session) {
     plan_ = {};
     known_.clear();
-    safety_.all_off(now);
+    safety_.all_off(ordered);
   }
-  if (touch != nullptr && stale) refuse(FeltOutcome::stale, *touch, now);
+  if (touch != nullptr && stale) refuse(FeltOutcome::stale, *touch, received);
   if (touch != nullptr && !stale) {
-    plan_ = touch_to_drives(event, {touch->transitions.data(), touch->transitions.size()}, profile_, plan_, now,
+    plan_ = touch_to_drives(event, {touch->transitions.data(), touch->transitions.size()}, profile_, plan_, ordered,
                             drive_duration_);
     const Timestamp planned = clock_.now();
-    const SafetyVerdict verdict = safety_.apply(plan_.drives, now);
-    answer(verdict, event, now);
+    const SafetyVerdict verdict = safety_.apply(plan_.drives, planned);
+    answer(verdict, event, received);
     plan_latency_.record(planned - ordered);
     drive_latency_.record(clock_.now() - planned);
   }
-  order_latency_.record(ordered - now);
+  order_latency_.record(ordered - received);
   tell_counters();
   return answers_;
 }

@@ -25,9 +25,9 @@ class PassivePipeline {
   PassivePipeline(const JacketProfile& profile, SafetyStage& safety, Duration drive_duration, const SessionId& session,
                   const Clock& clock, MetricsRegistry& metrics);
 
-  // An event came. Returns what to answer the sender: one for each contact that went down or up or is felt differently
-  // than at the event before. Valid until the next call.
-  const FeltAnswers& process(const TouchEvent& event, Timestamp now);
+  // An event that came at `received`, not after the clock's present time. Returns what to answer the sender: one for
+  // each contact that went down or up or is felt differently than at the event before. Valid until the next call.
+  const FeltAnswers& process(const TouchEvent& event, Timestamp received);
 
   // A stamp of the sender that carries no touch: keeps the estimate of the way's delay fresh.
   void observe(const Heartbeat& heartbeat, Timestamp now) {
