@@ -18,12 +18,16 @@
 #include <string_view>
 #include <vector>
 
+#include "body_map/vitruvian_grid.hpp"
+#include "boxes_under.hpp"
 #include "capture/rig_directory.hpp"
 #include "doubles/allocation_counter.hpp"
 #include "eval/rig_calibration.hpp"
 #include "finger/aligned_patch.hpp"
 #include "finger/thesis_detector.hpp"
+#include "pictures/jpeg_decoder.hpp"
 #include "pictures/picture_file.hpp"
+#include "publish/touch_event_builder.hpp"
 #include "touch/contact_tracker.hpp"
 #include "touch/screen_points.hpp"
 
@@ -80,17 +84,28 @@ Recording load(const std::filesystem::path& folder) {
   return recording;
 }
 
-// The whole path, from a decoded frame to contacts.
+// A face in the upper middle of the screen: the grid covers what the finger of the recording touches.
+BodyMap body_map(const ScreenSize& screen) {
+  const double height_mm = screen.height_mm / 4;
+  auto map = make_body_map({(screen.width_mm - height_mm) / 2, height_mm / 2, height_mm, height_mm}, screen.height_mm);
+  if (!map) throw std::runtime_error("no grid fits the screen");
+  map->version = 1;
+  return *map;
+}
+
+// The whole path, from a decoded frame to the event that is sent.
 std::vector<Figure> measure_path(const Recording& recording, bool continuity) {
   const Calibration& calibration = recording.calibration;
   ThesisDetector detector(calibration.border, calibration.image, {.continuity = continuity});
   ContactTracker tracker;
+  TouchEventBuilder builder("0123456789abcdef0123456789abcdef");
+  const BodyMap map = body_map(calibration.screen);
+  NobodyTouched nobody;
   const std::string suffix = continuity ? "" : ".without_continuity";
-  std::vector<Figure> figures{{"touch.frame_1280x720" + suffix, "ms", {}},
-                              {"touch.detect_1280x720" + suffix, "ms", {}},
-                              {"touch.model" + suffix, "ms", {}},
-                              {"touch.track" + suffix, "ms", {}},
-                              {"touch.allocations_per_frame" + suffix, "allocations", {}}};
+  std::vector<Figure> figures{
+      {"touch.frame_1280x720" + suffix, "ms", {}}, {"touch.detect_1280x720" + suffix, "ms", {}},
+      {"touch.model" + suffix, "ms", {}},          {"touch.track" + suffix, "ms", {}},
+      {"touch.box_and_event" + suffix, "ms", {}},  {"touch.allocations_per_frame" + suffix, "allocations", {}}};
   for (Figure& figure : figures)
     figure.samples.reserve(rounds);
   for (int i = 0; i < warm_up_rounds + rounds; ++i) {
@@ -101,12 +116,16 @@ std::vector<Figure> measure_path(const Recording& recording, bool continuity) {
     const double detect_ms = watch.lap_ms();
     const TouchedPoints touched = screen_points(fingers, calibration.model, calibration.screen, calibration.image);
     const double model_ms = watch.lap_ms();
-    tracker.update(touched.points, Timestamp{} + i * 33ms);
+    const Timestamp time = Timestamp{} + i * 33ms;
+    const ContactStates& contacts = tracker.update(touched.points, time);
     const double track_ms = watch.lap_ms();
+    const BoxedContacts boxed = boxes_under(contacts, map, Duration::max(), time, nobody);
+    builder.build(boxed, map.shape, map.version, time, time);
+    const double event_ms = watch.lap_ms();
     if (i < warm_up_rounds) continue;
     const auto allocations = static_cast<double>(allocation_count() - allocated);
-    const double frame_ms = detect_ms + model_ms + track_ms;
-    const std::vector<double> values{frame_ms, detect_ms, model_ms, track_ms, allocations};
+    const double frame_ms = detect_ms + model_ms + track_ms + event_ms;
+    const std::vector<double> values{frame_ms, detect_ms, model_ms, track_ms, event_ms, allocations};
     for (std::size_t f = 0; f < figures.size(); ++f)
       figures[f].samples.push_back(values[f]);
   }
@@ -145,6 +164,23 @@ Figure measure_preprocessing(const Recording& recording) {
   return figure;
 }
 
+// The whole JPEG of a frame, as the webcam and the recording decode it before the touch path.
+Figure measure_jpeg(const std::filesystem::path& picture) {
+  constexpr int jpeg_rounds = 300;
+  std::ifstream file(picture, std::ios::binary);
+  const std::vector<char> text{std::istreambuf_iterator<char>(file), {}};
+  const std::vector<std::uint8_t> bytes(text.begin(), text.end());
+  JpegDecoder decoder;
+  cv::Mat bgr;
+  Figure figure{"camera.jpeg_1280x720", "ms", {}};
+  for (int i = 0; i < jpeg_rounds; ++i) {
+    Stopwatch watch;
+    if (const Status decoded = decoder.decode(bytes, bgr); !decoded) throw std::runtime_error(decoded.error().message);
+    figure.samples.push_back(watch.lap_ms());
+  }
+  return figure;
+}
+
 void print_and_write(const std::vector<Figure>& figures, const std::string& json_file) {
   nlohmann::json json;
   fmt::print("{:<44}{:>12}{:>12}\n", "", "p50", "p99");
@@ -168,6 +204,7 @@ void run(const std::string& json_file) {
   const std::vector<Figure> without = measure_path(recording, false);
   figures.insert(figures.begin() + 1, measure_preprocessing(recording));
   figures.insert(figures.end(), without.begin(), without.end());
+  figures.push_back(measure_jpeg(TELEHUG_FIXTURES "/rig2/background.jpg"));
   if (!allocations_are_counted()) {
     std::erase_if(figures, [](const Figure& figure) { return figure.unit == "allocations"; });
     fmt::print("allocations are not counted: the sanitizer has its own heap\n");
