@@ -3,6 +3,8 @@
 // What the active daemon tells people: answers on the local socket, events for those who watch, the log.
 #include <fmt/core.h>
 
+#include <cmath>
+
 #include "active_daemon.hpp"
 #include "common/names.hpp"
 
@@ -109,7 +111,7 @@ Json ActiveDaemon::status() const {
   counters["messages_dropped"] = peer_.dropped();
 
   Json peer = {{"connected", state.peer.alive}, {"session", state.peer.session}};
-  if (state.peer.round_trip) peer["round_trip_ms"] = to_ms(*state.peer.round_trip);
+  if (state.peer.round_trip) peer["round_trip_ms"] = std::round(to_ms(*state.peer.round_trip) * 1000) / 1000;
   {
     const std::lock_guard lock(words_mutex_);
     if (peer_status_ && state.peer.alive) {

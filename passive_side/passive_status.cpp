@@ -3,6 +3,8 @@
 // What the passive daemon tells people: answers on the local socket, events for those who watch, the log.
 #include <fmt/core.h>
 
+#include <cmath>
+
 #include "common/names.hpp"
 #include "passive_daemon.hpp"
 
@@ -106,7 +108,7 @@ Json PassiveDaemon::status() const {
   counters["jacket_nacks"] = now.link.nacks;
 
   Json peer = {{"connected", now.peer.alive}, {"session", now.peer.session}};
-  if (now.peer.round_trip) peer["round_trip_ms"] = to_ms(*now.peer.round_trip);
+  if (now.peer.round_trip) peer["round_trip_ms"] = std::round(to_ms(*now.peer.round_trip) * 1000) / 1000;
   {
     const std::lock_guard lock(words_mutex_);
     if (peer_status_ && now.peer.alive) {
