@@ -103,7 +103,7 @@ Json ActiveDaemon::status() const {
   }
   const FaceState face = state.face ? state.face->state() : FaceState{};
   const bool stopped = stopped_ || peer_.stopped_by_peer();
-  const bool fault = state.camera_lost || !state.face || (face.open && !face.problem.empty());
+  const bool fault = state.camera_lost || !state.face || !face.problem.empty();
 
   Json counters = metrics_.counters_json();
   counters["touches_without_face"] = state.nobody.no_face;
@@ -177,7 +177,7 @@ void ActiveDaemon::tell_watchers() {
                                                                                      ? state.camera_problem
                                                                                  : state.camera_open ? "camera open"
                                                                                                      : "camera closed");
-  if (face.open) {
+  if (face.open || !face.problem.empty()) {
     say_face_.say(face.problem.empty() ? spdlog::level::info : spdlog::level::warn,
                   face.problem.empty() ? "face found" : face.problem);
   }
