@@ -13,3 +13,11 @@ telehug_test(test_app_silence KIND integration SUBJECT jacket
   SOURCES integration/app/silence_test.cpp DEPS running_pair)
 # It measures how long real processes take: beside other tests it would measure those.
 set_tests_properties(test_app_silence PROPERTIES RUN_SERIAL TRUE)
+telehug_test(test_app_recovery KIND integration SUBJECT jacket
+  SOURCES integration/app/recovery_test.cpp DEPS running_pair)
+telehug_test(test_app_stop KIND integration SUBJECT ops
+  SOURCES integration/app/stop_test.cpp DEPS running_pair)
+telehug_test(test_app_nobody_to_touch KIND integration SUBJECT ops
+  SOURCES integration/app/nobody_to_touch_test.cpp DEPS running_pair telehug_pictures)
+telehug_test(test_app_bad_input KIND integration SUBJECT ops
+  SOURCES integration/app/bad_input_test.cpp DEPS running_pair)
