@@ -114,6 +114,7 @@ class ActiveDaemon {
   // Between the threads
   LatestSlot<std::unique_ptr<Rig>> new_rig_;
   std::atomic<bool> stopped_ = false;
+  std::atomic<bool> stop_untold_ = false;  // the peer was not told of the last stop or resume yet
   std::atomic<bool> ending_ = false;
   mutable std::mutex state_mutex_;
   TouchThreadState state_;
@@ -128,7 +129,6 @@ class ActiveDaemon {
   std::string rig_problem_;
   std::string stop_reason_;
   std::optional<SideStatus> peer_status_;
-  bool told_stopped_ = false;
   bool told_recording_over_ = false;
   SayOnChange say_camera_;
   SayOnChange say_peer_;

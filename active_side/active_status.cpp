@@ -64,6 +64,8 @@ Json ActiveDaemon::set_stopped(bool stopped, const std::string& reason) {
     stop_reason_ = reason.substr(0, 200);
   }
   stopped_ = stopped;
+  // Told even if nothing changes here: the peer may still hold to a stop of this side's last run.
+  stop_untold_ = true;
   spdlog::warn("{}", stopped ? "stopped: " + reason : "resumed");
   return {{"stopped", stopped}};
 }
@@ -81,13 +83,15 @@ Json ActiveDaemon::problems(const TouchThreadState& state, const FaceState& face
   if (!state.peer.alive) {
     list.push_back(
         problem("no peer is connected", "start telehug-passive on the other PC; domain and partition must agree"));
+  } else if (peer_status_ && peer_status_->stopped && !stopped_ && !peer_.stopped_by_peer()) {
+    list.push_back(problem("the other side still holds to a stop of this one", "run `telehug resume`"));
   } else if (peer_status_ && !peer_status_->ready && !peer_status_->stopped) {
     list.push_back(
         problem("the other side is not ready: " + peer_status_->reason, "see `telehug status` on the other PC"));
   }
   if (state.camera_lost) list.push_back(problem(state.camera_problem, "plug the camera in, or correct [camera]"));
   if (state.recording_over) list.push_back(problem("the recording is over", "start again to replay it"));
-  if (face.open && !face.problem.empty()) {
+  if (!face.problem.empty()) {
     list.push_back(problem(face.problem, "touches are not sent until a face is found; check [body_map] picture"));
   }
   return list;
@@ -101,7 +105,7 @@ Json ActiveDaemon::status() const {
   }
   const FaceState face = state.face ? state.face->state() : FaceState{};
   const bool stopped = stopped_ || peer_.stopped_by_peer();
-  const bool fault = state.camera_lost || !state.face || (face.open && !face.problem.empty());
+  const bool fault = state.camera_lost || !state.face || !face.problem.empty();
 
   Json counters = metrics_.counters_json();
   counters["touches_without_face"] = state.nobody.no_face;
@@ -175,7 +179,7 @@ void ActiveDaemon::tell_watchers() {
                                                                                      ? state.camera_problem
                                                                                  : state.camera_open ? "camera open"
                                                                                                      : "camera closed");
-  if (face.open) {
+  if (face.open || !face.problem.empty()) {
     say_face_.say(face.problem.empty() ? spdlog::level::info : spdlog::level::warn,
                   face.problem.empty() ? "face found" : face.problem);
   }

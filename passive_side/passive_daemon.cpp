@@ -158,10 +158,9 @@ DriveThreadState PassiveDaemon::state() const {
 }
 
 void PassiveDaemon::tell_peer() {
-  if (const bool stopped = stopped_; stopped != told_stopped_) {
+  if (stop_untold_.exchange(false)) {
     const std::lock_guard lock(words_mutex_);
-    peer_.tell_stop(stopped, stop_reason_);
-    told_stopped_ = stopped;
+    peer_.tell_stop(stopped_, stop_reason_);
   }
   if (auto peer_status = peer_.take_peer_status()) {
     const std::lock_guard lock(words_mutex_);

@@ -101,6 +101,7 @@ class PassiveDaemon {
   };
   LatestSlot<Arrival> newest_event_;
   std::atomic<bool> stopped_ = false;
+  std::atomic<bool> stop_untold_ = false;  // the peer was not told of the last stop or resume yet
   std::atomic<bool> ending_ = false;
   mutable std::mutex state_mutex_;
   DriveThreadState state_;
@@ -111,7 +112,6 @@ class PassiveDaemon {
   mutable std::mutex words_mutex_;  // guards the sentences below, which other threads read
   std::string stop_reason_;
   std::optional<SideStatus> peer_status_;
-  bool told_stopped_ = false;
   SayOnChange say_jacket_;
   SayOnChange say_peer_;
 

@@ -57,6 +57,8 @@ Json PassiveDaemon::set_stopped(bool stopped, const std::string& reason) {
     stop_reason_ = reason.substr(0, 200);
   }
   stopped_ = stopped;
+  // Told even if nothing changes here: the peer may still hold to a stop of this side's last run.
+  stop_untold_ = true;
   spdlog::warn("{}", stopped ? "stopped: " + reason : "resumed");
   return {{"stopped", stopped}};
 }
