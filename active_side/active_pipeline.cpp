@@ -48,8 +48,7 @@ const TouchEvent* ActivePipeline::report(const ScreenPoints& points, const BodyM
   contacts_ = &tracker_.update(points, frame_time);
   const Timestamp tracked = clock_.now();
   const BoxedContacts boxed = sending ? boxes_under(*contacts_, map, max_map_age_, tracked, nobody_) : BoxedContacts{};
-  const TouchEvent* event =
-      builder_.build(boxed, map.shape, map.version, frame_time, clock_.now());
+  const TouchEvent* event = builder_.build(boxed, map.shape, map.version, frame_time, clock_.now());
 
   const auto begins = [](const ContactState& contact) { return contact.phase == Phase::down; };
   touches_seen_.add(static_cast<std::uint64_t>(std::count_if(contacts_->begin(), contacts_->end(), begins)));
