@@ -6,8 +6,8 @@
 #include <algorithm>
 
 #include "config/places.hpp"
+#include "daemon/daemon_settings.hpp"
 #include "peer/session_id.hpp"
-#include "service/control_socket.hpp"
 
 namespace telehug {
 namespace {
@@ -18,23 +18,6 @@ constexpr Duration housekeeping_round = 20ms;
 constexpr Duration state_interval = 100ms;
 constexpr Duration calibration_interval = 1s;
 
-DdsSettings dds_settings(const PeerConfig& config) {
-  DdsSettings settings;
-  settings.side = Side::active;
-  settings.domain_id = static_cast<std::uint32_t>(config.domain);
-  if (!config.partition.empty()) settings.partition = config.partition;
-  settings.loopback_only = config.loopback_only;
-  return settings;
-}
-
-ControlServerOptions control_options(const ControlConfig& config) {
-  ControlServerOptions options;
-  options.socket = config.socket;
-  if (config.socket.empty()) options.socket = default_control_socket(Side::active);
-  options.group = config.group;
-  return options;
-}
-
 }  // namespace
 
 ActiveDaemon::ActiveDaemon(const ActiveConfig& config, std::unique_ptr<FrameSource> camera, const Clock& clock)
@@ -44,7 +27,7 @@ ActiveDaemon::ActiveDaemon(const ActiveConfig& config, std::unique_ptr<FrameSour
       session_(new_session_id()),
       camera_(std::move(camera)),
       camera_name_(camera_->name()),
-      participant_(dds_settings(config.peer)),
+      participant_(dds_settings(config.peer, Side::active)),
       touch_writer_(participant_),
       peer_(participant_, Side::active, session_, std::chrono::milliseconds(config.heartbeat_timeout_ms), clock),
       events_published_(metrics_.counter("events_published")),
@@ -58,11 +41,13 @@ ActiveDaemon::ActiveDaemon(const ActiveConfig& config, std::unique_ptr<FrameSour
       total_latency_(metrics_.latency("frame_to_published")),
       calibration_path_(rig_file(config.rig)),
       felt_reader_(std::make_unique<Reader<Felt>>(participant_, [this](const Felt& felt) { felt_.push(felt); })),
-      control_(std::make_unique<ControlServer>(control_options(config.control))) {
+      control_(std::make_unique<ControlServer>(control_options(config.control, Side::active))) {
   answer_commands();
 }
 
-ActiveDaemon::~ActiveDaemon() = default;
+ActiveDaemon::~ActiveDaemon() {
+  end_thread();
+}
 
 ExitCode ActiveDaemon::run(Signals& signals) {
   load_rig_if_changed();
@@ -79,10 +64,14 @@ ExitCode ActiveDaemon::run(Signals& signals) {
     tell_peer();
   }
   notifier_.stopping();
-  ending_ = true;
-  touch_thread_.join();
+  end_thread();
   spdlog::info("telehug-active ends");
   return ExitCode::ok;
+}
+
+void ActiveDaemon::end_thread() {
+  ending_ = true;
+  if (touch_thread_.joinable()) touch_thread_.join();
 }
 
 // --- touch thread ---
@@ -112,7 +101,7 @@ void ActiveDaemon::adopt_rig() {
 }
 
 bool ActiveDaemon::camera_wanted(Timestamp now) {
-  const bool touches_go_out = rig_ && peer_.alive(now) && !stopped_ && !peer_.stopped_by_peer();
+  const bool touches_go_out = rig_ && peer_.alive(now) && !stop_.stopped() && !peer_.stopped_by_peer();
   if (!touches_go_out) recording_over_ = false;
   const bool wanted = touches_go_out && !recording_over_;
   if (rig_) rig_->face->want(wanted);
@@ -228,10 +217,7 @@ void ActiveDaemon::load_rig_if_changed() {
 }
 
 void ActiveDaemon::tell_peer() {
-  if (stop_untold_.exchange(false)) {
-    const std::lock_guard lock(words_mutex_);
-    peer_.tell_stop(stopped_, stop_reason_);
-  }
+  stop_.tell(peer_);
   if (auto peer_status = peer_.take_peer_status()) {
     const std::lock_guard lock(words_mutex_);
     peer_status_ = *std::move(peer_status);
@@ -240,11 +226,11 @@ void ActiveDaemon::tell_peer() {
   own.session = session_;
   own.side = Side::active;
   own.version = version;
-  own.stopped = stopped_;
+  own.stopped = stop_.stopped();
   {
     const std::lock_guard lock(words_mutex_);
     own.ready = rig_problem_.empty() && !own.stopped;
-    own.reason = own.stopped ? stop_reason_ : rig_problem_;
+    own.reason = own.stopped ? stop_.reason() : rig_problem_;
   }
   peer_.tell(own);
 }

@@ -14,6 +14,7 @@
 #include "common/latest_slot.hpp"
 #include "common/version.hpp"
 #include "config/config.hpp"
+#include "daemon/stop_switch.hpp"
 #include "dds/participant.hpp"
 #include "dds/reader.hpp"
 #include "dds/writer.hpp"
@@ -62,6 +63,8 @@ class ActiveDaemon {
   ExitCode run(Signals& signals);
 
  private:
+  void end_thread();
+
   // Touch thread
   void touch_loop();
   void adopt_rig();
@@ -77,8 +80,8 @@ class ActiveDaemon {
   void tell_peer();
   void answer_commands();
   nlohmann::json status() const;
+  [[nodiscard]] std::optional<SideStatus> peer_told() const;
   nlohmann::json problems(const TouchThreadState& state, const FaceState& face) const;
-  nlohmann::json set_stopped(bool stopped, const std::string& reason);
 
   ActiveConfig config_;
   const Clock& clock_;
@@ -113,8 +116,7 @@ class ActiveDaemon {
 
   // Between the threads
   LatestSlot<std::unique_ptr<Rig>> new_rig_;
-  std::atomic<bool> stopped_ = false;
-  std::atomic<bool> stop_untold_ = false;  // the peer was not told of the last stop or resume yet
+  StopSwitch stop_;
   std::atomic<bool> ending_ = false;
   mutable std::mutex state_mutex_;
   TouchThreadState state_;
@@ -127,7 +129,6 @@ class ActiveDaemon {
   Timestamp calibration_looked_at_;
   mutable std::mutex words_mutex_;  // guards the sentences below, which the control thread reads
   std::string rig_problem_;
-  std::string stop_reason_;
   std::optional<SideStatus> peer_status_;
   bool told_recording_over_ = false;
   SayOnChange say_camera_;

@@ -3,10 +3,9 @@
 // What the active daemon tells people: answers on the local socket, events for those who watch, the log.
 #include <fmt/core.h>
 
-#include <cmath>
-
 #include "active_daemon.hpp"
 #include "common/names.hpp"
+#include "daemon/status_parts.hpp"
 
 namespace telehug {
 namespace {
@@ -44,55 +43,41 @@ Json felt_json(const Felt& felt) {
           {"actuators", actuators}};
 }
 
-Json problem(std::string what, std::string to_do) {
-  return {{"what", std::move(what)}, {"do", std::move(to_do)}};
-}
-
 }  // namespace
 
 void ActiveDaemon::answer_commands() {
   control_->on("status", [this](const Json&) { return status(); });
-  control_->on("stop", [this](const Json& request) {
-    return set_stopped(true, request.value("reason", std::string("stopped on this side")));
-  });
-  control_->on("resume", [this](const Json&) { return set_stopped(false, ""); });
+  stop_.serve(*control_);
 }
 
-Json ActiveDaemon::set_stopped(bool stopped, const std::string& reason) {
-  {
-    const std::lock_guard lock(words_mutex_);
-    stop_reason_ = reason.substr(0, 200);
-  }
-  stopped_ = stopped;
-  // Told even if nothing changes here: the peer may still hold to a stop of this side's last run.
-  stop_untold_ = true;
-  spdlog::warn("{}", stopped ? "stopped: " + reason : "resumed");
-  return {{"stopped", stopped}};
+std::optional<SideStatus> ActiveDaemon::peer_told() const {
+  const std::lock_guard lock(words_mutex_);
+  return peer_status_;
 }
 
 Json ActiveDaemon::problems(const TouchThreadState& state, const FaceState& face) const {
   Json list = Json::array();
-  const std::lock_guard lock(words_mutex_);
-  if (!rig_problem_.empty())
-    list.push_back(problem(rig_problem_, "run `telehug-active calibrate`, or correct the file"));
-  if (stopped_) list.push_back(problem("stopped here: " + stop_reason_, "run `telehug resume`"));
-  if (peer_.stopped_by_peer()) {
-    const std::string why = peer_status_ && !peer_status_->reason.empty() ? ": " + peer_status_->reason : "";
-    list.push_back(problem("the other side has stopped everything" + why, "ask them to resume"));
+  const auto told = peer_told();
+  {
+    const std::lock_guard lock(words_mutex_);
+    if (!rig_problem_.empty())
+      list.push_back(problem_json(rig_problem_, "run `telehug-active calibrate`, or correct the file"));
   }
+  if (stop_.stopped()) list.push_back(problem_json("stopped here: " + stop_.reason(), "run `telehug resume`"));
+  if (peer_.stopped_by_peer()) list.push_back(peer_stop_problem_json(told));
   if (!state.peer.alive) {
     list.push_back(
-        problem("no peer is connected", "start telehug-passive on the other PC; domain and partition must agree"));
-  } else if (peer_status_ && peer_status_->stopped && !stopped_ && !peer_.stopped_by_peer()) {
-    list.push_back(problem("the other side still holds to a stop of this one", "run `telehug resume`"));
-  } else if (peer_status_ && !peer_status_->ready && !peer_status_->stopped) {
+        problem_json("no peer is connected", "start telehug-passive on the other PC; domain and partition must agree"));
+  } else if (told && told->stopped && !stop_.stopped() && !peer_.stopped_by_peer()) {
+    list.push_back(problem_json("the other side still holds to a stop of this one", "run `telehug resume`"));
+  } else if (told && !told->ready && !told->stopped) {
     list.push_back(
-        problem("the other side is not ready: " + peer_status_->reason, "see `telehug status` on the other PC"));
+        problem_json("the other side is not ready: " + told->reason, "see `telehug status` on the other PC"));
   }
-  if (state.camera_lost) list.push_back(problem(state.camera_problem, "plug the camera in, or correct [camera]"));
-  if (state.recording_over) list.push_back(problem("the recording is over", "start again to replay it"));
+  if (state.camera_lost) list.push_back(problem_json(state.camera_problem, "plug the camera in, or correct [camera]"));
+  if (state.recording_over) list.push_back(problem_json("the recording is over", "start again to replay it"));
   if (!face.problem.empty()) {
-    list.push_back(problem(face.problem, "touches are not sent until a face is found; check [body_map] picture"));
+    list.push_back(problem_json(face.problem, "touches are not sent until a face is found; check [body_map] picture"));
   }
   return list;
 }
@@ -104,7 +89,7 @@ Json ActiveDaemon::status() const {
     state = state_;
   }
   const FaceState face = state.face ? state.face->state() : FaceState{};
-  const bool stopped = stopped_ || peer_.stopped_by_peer();
+  const bool stopped = stop_.stopped() || peer_.stopped_by_peer();
   const bool fault = state.camera_lost || !state.face || !face.problem.empty();
 
   Json counters = metrics_.counters_json();
@@ -112,18 +97,9 @@ Json ActiveDaemon::status() const {
   counters["touches_with_old_map"] = state.nobody.map_too_old;
   counters["touches_outside_grid"] = state.nobody.outside_grid;
   counters["peer_losses"] = state.peer.losses;
-  counters["messages_dropped"] = peer_.dropped();
+  counters["messages_dropped"] =
+      peer_.dropped() + felt_reader_->counters().malformed + felt_reader_->counters().invalid;
 
-  Json peer = {{"connected", state.peer.alive}, {"session", state.peer.session}};
-  if (state.peer.round_trip) peer["round_trip_ms"] = std::round(to_ms(*state.peer.round_trip) * 1000) / 1000;
-  {
-    const std::lock_guard lock(words_mutex_);
-    if (peer_status_ && state.peer.alive) {
-      peer["stopped"] = peer_status_->stopped;
-      peer["ready"] = peer_status_->ready;
-      peer["reason"] = peer_status_->reason;
-    }
-  }
   const char* open_why = state.camera_open      ? "a peer is connected"
                          : state.recording_over ? "the recording is over"
                          : state.camera_lost    ? "it can't be used"
@@ -139,7 +115,7 @@ Json ActiveDaemon::status() const {
                            : !state.peer.alive ? "waiting"
                                                : "ok"},
                  {"problems", problems(state, face)},
-                 {"peer", peer},
+                 {"peer", peer_json(state.peer, peer_told())},
                  {"camera", {{"name", camera_name_}, {"open", state.camera_open}, {"why", open_why}}},
                  {"screen", {{"name", face.screen}, {"open", face.open}}},
                  {"face", {{"found", face.map.version != 0}, {"map_version", face.map.version}}},

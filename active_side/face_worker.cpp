@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "face_worker.hpp"
 
+#include <exception>
 #include <utility>
 
 namespace telehug {
@@ -27,9 +28,9 @@ FaceWorker::~FaceWorker() {
 }
 
 void FaceWorker::want(bool wanted) {
+  if (wanted == wanted_) return;
   {
     const std::lock_guard lock(mutex_);
-    if (wanted == wanted_) return;
     wanted_ = wanted;
     has_looked_ = false;
   }
@@ -71,11 +72,16 @@ void FaceWorker::work() {
 void FaceWorker::look() {
   const Timestamp started = clock_.now();
   std::string problem;
-  if (const Status opened = grabber_->open(); !opened) problem = opened.error().message;
-  const BodyMap map = step_.run();
+  BodyMap map;
+  try {
+    if (const Status opened = grabber_->open(); !opened) problem = opened.error().message;
+    map = step_.run();
+    if (problem.empty()) problem = step_.problem();
+  } catch (const std::exception& fault) {  // of a library, on a picture that it can't bear
+    problem = std::string("the picture of the screen can't be searched: ") + fault.what();
+  }
   newest_.put(map);
   latency_.record(clock_.now() - started);
-  if (problem.empty()) problem = step_.problem();
   const std::lock_guard lock(mutex_);
   state_ = {grabber_->name(), grabber_->is_open(), std::move(problem), map};
 }

@@ -32,7 +32,8 @@ class FaceWorker {
   FaceWorker(const FaceWorker&) = delete;
   FaceWorker& operator=(const FaceWorker&) = delete;
 
-  // The screen is looked at only while somebody wants it; otherwise it is closed and the map is gone.
+  // The screen is looked at only while somebody wants it; otherwise it is closed and the map is gone. One thread says
+  // so, as often as it likes: only a change of mind costs something.
   void want(bool wanted);
 
   // Was the screen looked at since it was last wanted, so that it is known whether there is a face?
@@ -59,7 +60,7 @@ class FaceWorker {
 
   mutable std::mutex mutex_;
   std::condition_variable changed_;
-  bool wanted_ = false;
+  std::atomic<bool> wanted_ = false;  // written under the mutex
   bool ending_ = false;
   FaceState state_;
   std::thread thread_;

@@ -4,6 +4,7 @@
 #include <fmt/core.h>
 
 #include <cmath>
+#include <stdexcept>
 
 #include "body_map/haar_face_finder.hpp"
 #include "body_map/picture_grabber.hpp"
@@ -47,7 +48,11 @@ Result<std::unique_ptr<Rig>> make_rig(const ActiveConfig& config, const SessionI
   grabber.path = config.body_map.picture;
   auto face = std::make_shared<FaceWorker>(std::make_unique<PictureGrabber>(grabber, clock), *std::move(finder), step,
                                            config.body_map.rate_hz, clock, metrics);
-  return std::make_unique<Rig>(Rig{ActivePipeline(*calibration, options, session, clock, metrics), std::move(face)});
+  try {
+    return std::make_unique<Rig>(Rig{ActivePipeline(*calibration, options, session, clock, metrics), std::move(face)});
+  } catch (const std::invalid_argument& problem) {
+    return Error{fmt::format("{}: {}; calibrate again", path.string(), problem.what())};
+  }
 }
 
 }  // namespace telehug

@@ -3,8 +3,8 @@
 
 #include <algorithm>
 
+#include "daemon/daemon_settings.hpp"
 #include "peer/session_id.hpp"
-#include "service/control_socket.hpp"
 
 namespace telehug {
 namespace {
@@ -12,23 +12,6 @@ namespace {
 constexpr Duration drive_round = 10ms;  // the safety stage wants to be served this often
 constexpr Duration housekeeping_round = 20ms;
 constexpr Duration state_interval = 100ms;
-
-DdsSettings dds_settings(const PeerConfig& config) {
-  DdsSettings settings;
-  settings.side = Side::passive;
-  settings.domain_id = static_cast<std::uint32_t>(config.domain);
-  if (!config.partition.empty()) settings.partition = config.partition;
-  settings.loopback_only = config.loopback_only;
-  return settings;
-}
-
-ControlServerOptions control_options(const ControlConfig& config) {
-  ControlServerOptions options;
-  options.socket = config.socket;
-  if (config.socket.empty()) options.socket = default_control_socket(Side::passive);
-  options.group = config.group;
-  return options;
-}
 
 SafetyLimits safety_limits(const SafetyConfig& config) {
   SafetyLimits limits;
@@ -51,7 +34,7 @@ PassiveDaemon::PassiveDaemon(const PassiveConfig& config, JacketProfile profile,
       events_received_(metrics_.counter("events_received")),
       events_replaced_(metrics_.counter("events_replaced_by_newer")),
       total_latency_(metrics_.latency("event_to_link")),
-      participant_(dds_settings(config.peer)),
+      participant_(dds_settings(config.peer, Side::passive)),
       felt_writer_(participant_),
       peer_(participant_, Side::passive, session_, std::chrono::milliseconds(config.safety.heartbeat_timeout_ms),
             clock),
@@ -62,11 +45,13 @@ PassiveDaemon::PassiveDaemon(const PassiveConfig& config, JacketProfile profile,
                                                  const bool replaced = newest_event_.put({event, clock_.now()});
                                                  if (replaced) events_replaced_.add();
                                                })),
-      control_(std::make_unique<ControlServer>(control_options(config.control))) {
+      control_(std::make_unique<ControlServer>(control_options(config.control, Side::passive))) {
   answer_commands();
 }
 
-PassiveDaemon::~PassiveDaemon() = default;
+PassiveDaemon::~PassiveDaemon() {
+  end_thread();
+}
 
 ExitCode PassiveDaemon::run(Signals& signals) {
   control_->start();
@@ -80,10 +65,14 @@ ExitCode PassiveDaemon::run(Signals& signals) {
     tell_peer();
   }
   notifier_.stopping();
-  ending_ = true;
-  drive_thread_.join();
+  end_thread();
   spdlog::info("telehug-passive ends; the jacket is off");
   return ExitCode::ok;
+}
+
+void PassiveDaemon::end_thread() {
+  ending_ = true;
+  if (drive_thread_.joinable()) drive_thread_.join();
 }
 
 // --- drive thread ---
@@ -119,14 +108,14 @@ void PassiveDaemon::hear_peer(Timestamp now) {
 }
 
 void PassiveDaemon::follow_stops(Timestamp now) {
-  const bool stop = stopped_ || peer_.stopped_by_peer();
+  const bool own = stop_.stopped();
+  const bool stop = own || peer_.stopped_by_peer();
   if (stop == safety_.stopped()) return;
   if (!stop) {
     safety_.resume();
     return;
   }
-  const std::lock_guard lock(words_mutex_);
-  safety_.stop(stopped_ ? stop_reason_ : "the other side has stopped everything", now);
+  safety_.stop(own ? stop_.reason() : "the other side has stopped everything", now);
 }
 
 void PassiveDaemon::tell_running(Timestamp now) {
@@ -158,10 +147,7 @@ DriveThreadState PassiveDaemon::state() const {
 }
 
 void PassiveDaemon::tell_peer() {
-  if (stop_untold_.exchange(false)) {
-    const std::lock_guard lock(words_mutex_);
-    peer_.tell_stop(stopped_, stop_reason_);
-  }
+  stop_.tell(peer_);
   if (auto peer_status = peer_.take_peer_status()) {
     const std::lock_guard lock(words_mutex_);
     peer_status_ = *std::move(peer_status);
@@ -173,7 +159,10 @@ void PassiveDaemon::tell_peer() {
   own.version = version;
   own.stopped = now.stopped;
   own.ready = now.link.state == LinkState::armed && !now.stopped;
-  own.reason = now.stopped ? now.stop_reason : own.ready ? "" : "no jacket answers: " + now.link.problem;
+  own.reason = stop_.stopped() ? stop_.reason()
+               : now.stopped   ? now.stop_reason
+               : own.ready     ? ""
+                               : "no jacket answers: " + now.link.problem;
   peer_.tell(own);
 }
 

@@ -13,6 +13,7 @@
 #include "common/latest_slot.hpp"
 #include "common/version.hpp"
 #include "config/config.hpp"
+#include "daemon/stop_switch.hpp"
 #include "dds/participant.hpp"
 #include "dds/reader.hpp"
 #include "dds/writer.hpp"
@@ -60,6 +61,8 @@ class PassiveDaemon {
   ExitCode run(Signals& signals);
 
  private:
+  void end_thread();
+
   // Drive thread
   void drive_loop();
   void hear_peer(Timestamp now);
@@ -72,8 +75,8 @@ class PassiveDaemon {
   void tell_peer();
   void answer_commands();
   nlohmann::json status() const;
+  [[nodiscard]] std::optional<SideStatus> peer_told() const;
   nlohmann::json problems(const DriveThreadState& state) const;
-  nlohmann::json set_stopped(bool stopped, const std::string& reason);
   [[nodiscard]] DriveThreadState state() const;
 
   PassiveConfig config_;
@@ -100,8 +103,7 @@ class PassiveDaemon {
     Timestamp time;
   };
   LatestSlot<Arrival> newest_event_;
-  std::atomic<bool> stopped_ = false;
-  std::atomic<bool> stop_untold_ = false;  // the peer was not told of the last stop or resume yet
+  StopSwitch stop_;
   std::atomic<bool> ending_ = false;
   mutable std::mutex state_mutex_;
   DriveThreadState state_;
@@ -109,8 +111,7 @@ class PassiveDaemon {
   boost::lockfree::spsc_queue<RunningChange, boost::lockfree::capacity<1024>> running_;
 
   // Housekeeping
-  mutable std::mutex words_mutex_;  // guards the sentences below, which other threads read
-  std::string stop_reason_;
+  mutable std::mutex words_mutex_;  // guards the next, which the control thread reads
   std::optional<SideStatus> peer_status_;
   SayOnChange say_jacket_;
   SayOnChange say_peer_;

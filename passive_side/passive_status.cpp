@@ -3,9 +3,8 @@
 // What the passive daemon tells people: answers on the local socket, events for those who watch, the log.
 #include <fmt/core.h>
 
-#include <cmath>
-
 #include "common/names.hpp"
+#include "daemon/status_parts.hpp"
 #include "passive_daemon.hpp"
 
 namespace telehug {
@@ -37,45 +36,29 @@ const char* name_of(LinkState state) {
   return names[static_cast<std::size_t>(state)];
 }
 
-Json problem(std::string what, std::string to_do) {
-  return {{"what", std::move(what)}, {"do", std::move(to_do)}};
-}
-
 }  // namespace
 
 void PassiveDaemon::answer_commands() {
   control_->on("status", [this](const Json&) { return status(); });
-  control_->on("stop", [this](const Json& request) {
-    return set_stopped(true, request.value("reason", std::string("stopped on this side")));
-  });
-  control_->on("resume", [this](const Json&) { return set_stopped(false, ""); });
+  stop_.serve(*control_);
 }
 
-Json PassiveDaemon::set_stopped(bool stopped, const std::string& reason) {
-  {
-    const std::lock_guard lock(words_mutex_);
-    stop_reason_ = reason.substr(0, 200);
-  }
-  stopped_ = stopped;
-  // Told even if nothing changes here: the peer may still hold to a stop of this side's last run.
-  stop_untold_ = true;
-  spdlog::warn("{}", stopped ? "stopped: " + reason : "resumed");
-  return {{"stopped", stopped}};
+std::optional<SideStatus> PassiveDaemon::peer_told() const {
+  const std::lock_guard lock(words_mutex_);
+  return peer_status_;
 }
 
 Json PassiveDaemon::problems(const DriveThreadState& now) const {
   Json list = Json::array();
   if (now.link.state != LinkState::armed) {
-    list.push_back(problem(fmt::format("no jacket answers on {}: {}", now.link.device, now.link.problem),
-                           "check its cable and power, and [jacket] link in the configuration"));
+    list.push_back(problem_json(fmt::format("no jacket answers on {}: {}", now.link.device, now.link.problem),
+                                "check its cable and power, and [jacket] link in the configuration"));
   }
-  if (stopped_) {
-    list.push_back(problem("stopped here: " + now.stop_reason, "run `telehug resume`"));
-  }
-  if (peer_.stopped_by_peer()) list.push_back(problem("the other side has stopped everything", "ask them to resume"));
+  if (stop_.stopped()) list.push_back(problem_json("stopped here: " + stop_.reason(), "run `telehug resume`"));
+  if (peer_.stopped_by_peer()) list.push_back(peer_stop_problem_json(peer_told()));
   if (!now.peer.alive) {
     list.push_back(
-        problem("no peer is connected", "start telehug-active on the other PC; domain and partition must agree"));
+        problem_json("no peer is connected", "start telehug-active on the other PC; domain and partition must agree"));
   }
   return list;
 }
@@ -100,6 +83,7 @@ Json PassiveDaemon::status() const {
   counters["off_ended"] = safety.off_ended;
   counters["off_expired"] = safety.off_expired;
   counters["off_stop"] = safety.off_stop;
+  counters["off_asked"] = safety.off_asked;
   counters["off_heartbeat_lost"] = safety.off_heartbeat_lost;
   counters["off_link_lost"] = safety.off_link_lost;
   counters["off_clock_jumped"] = safety.off_clock_jumped;
@@ -109,16 +93,6 @@ Json PassiveDaemon::status() const {
   counters["jacket_malformed_frames"] = now.link.malformed_frames;
   counters["jacket_nacks"] = now.link.nacks;
 
-  Json peer = {{"connected", now.peer.alive}, {"session", now.peer.session}};
-  if (now.peer.round_trip) peer["round_trip_ms"] = std::round(to_ms(*now.peer.round_trip) * 1000) / 1000;
-  {
-    const std::lock_guard lock(words_mutex_);
-    if (peer_status_ && now.peer.alive) {
-      peer["stopped"] = peer_status_->stopped;
-      peer["ready"] = peer_status_->ready;
-      peer["reason"] = peer_status_->reason;
-    }
-  }
   Json answer = {{"side", "passive"},
                  {"version", version},
                  {"session", session_},
@@ -128,7 +102,7 @@ Json PassiveDaemon::status() const {
                            : !now.peer.alive ? "waiting"
                                              : "ok"},
                  {"problems", problems(now)},
-                 {"peer", peer},
+                 {"peer", peer_json(now.peer, peer_told())},
                  {"jacket",
                   {{"name", profile_.name},
                    {"device", now.link.device},

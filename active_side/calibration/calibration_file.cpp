@@ -58,8 +58,8 @@ class CalibrationReader {
     const Range size_mm{least_length, max_screen_mm};
     const ScreenSize screen{number(screen_table, screen_line, "width_mm", size_mm),
                             number(screen_table, screen_line, "height_mm", size_mm),
-                            static_cast<int>(integer(screen_table, screen_line, "width_px", 1, max_desktop_px)),
-                            static_cast<int>(integer(screen_table, screen_line, "height_px", 1, max_desktop_px))};
+                            static_cast<int>(integer(screen_table, screen_line, "width_px", 0, max_desktop_px)),
+                            static_cast<int>(integer(screen_table, screen_line, "height_px", 0, max_desktop_px))};
     const auto [border_table, border_line] = section("border");
     const BorderLine border{number(border_table, border_line, "v0_px", any_number),
                             number(border_table, border_line, "slope", {-max_border_slope, max_border_slope})};
@@ -188,6 +188,9 @@ Result<Calibration> read_calibration(const fs::path& path) {
 }
 
 Status write_calibration(const fs::path& path, const Calibration& calibration) {
+  std::error_code code;
+  if (path.has_parent_path()) fs::create_directories(path.parent_path(), code);
+  if (code) return Error{fmt::format("can't make the folder {}: {}", path.parent_path().string(), code.message())};
   const std::string unfinished = path.string() + fmt::format(".{}.part", ::getpid());
   const int descriptor = ::open(unfinished.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
   if (descriptor < 0) {
@@ -195,7 +198,6 @@ Status write_calibration(const fs::path& path, const Calibration& calibration) {
   }
   Status written = write_whole(descriptor, to_toml(calibration));
   ::close(descriptor);
-  std::error_code code;
   if (written) fs::rename(unfinished, path, code);
   if (written && !code) return Done{};
   std::error_code ignored;

@@ -42,7 +42,7 @@ struct Calibration {
   std::string camera;
   std::string date;  // ISO 8601, UTC
   ImageSize image;
-  ScreenSize screen;
+  ScreenSize screen;  // its pixels are 0 if they are not known
   BorderLine border;
   std::array<MeasuredTouch, 2> touches;
   ThesisTouchModel model;  // solved from `screen` and `touches`
@@ -51,7 +51,7 @@ struct Calibration {
 // The error holds every fault, one a line, each as "file:line: what is wrong"; or why the touches do not solve.
 Result<Calibration> read_calibration(const std::filesystem::path& path);
 
-// The file appears under its name when it is complete; an older one stays until then.
+// Makes the folder if need be. The file appears under its name when it is complete; an older one stays until then.
 Status write_calibration(const std::filesystem::path& path, const Calibration& calibration);
 
 }  // namespace telehug

@@ -37,6 +37,9 @@ Status write_rig_toml(const std::filesystem::path& folder, const ActiveConfig& c
   if (!(screen.width_mm > 0) || !(screen.height_mm > 0)) {
     return Error{"how large is the screen? Calibrate first, or set rig.screen_width_mm and rig.screen_height_mm"};
   }
+  if (screen.width_px <= 0 || screen.height_px <= 0) {
+    return Error{"how many pixels has the screen? Set rig.screen_width_px and rig.screen_height_px"};
+  }
   const std::string text = fmt::format("width_mm = {}\nheight_mm = {}\nresolution = [{}, {}]\n", screen.width_mm,
                                        screen.height_mm, screen.width_px, screen.height_px);
   return write_bytes(folder / "rig.toml", {text.begin(), text.end()});

@@ -31,7 +31,6 @@ struct CameraConfig {
   int width_px = 1280;
   int height_px = 720;
   int fps = 30;
-  std::string format = "auto";  // auto, mjpeg, yuyv
 };
 
 struct RigConfig {

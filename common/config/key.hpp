@@ -66,7 +66,7 @@ struct Fault {
 [[nodiscard]] std::optional<Value> value_from_text(const Key& key, std::string_view text);
 
 [[nodiscard]] std::string_view type_name(const Target& target);
-// "1 .. 240", "auto | mjpeg | yuyv", or empty.
+// "1 .. 240", "default | thesis", or empty.
 [[nodiscard]] std::string limits_text(const Limits& limits);
 // As it is written in a file.
 [[nodiscard]] std::string toml_text(const Target& target);

@@ -13,8 +13,12 @@ namespace {
 
 constexpr Range any_length_px{0, 16384};
 constexpr Range any_length_mm{0, 5000};
+// Above 100 the UDP ports of a DDS domain (7400 + 250 * domain) lie where the kernel hands out ports of its own.
+constexpr Range dds_domain{0, 100};
 // A heartbeat comes every 100 ms: less than 150 would lose the peer whenever one is late.
 constexpr Range heartbeat_timeout{150, 1000};
+// What drives a motor trusts a silent sender for at most as long as one command of the jacket lasts.
+constexpr Range heartbeat_timeout_of_drives{150, 250};
 
 template <typename Parser>
 TextCheck parsed_by(Parser parse) {
@@ -44,7 +48,7 @@ void append(Rows& rows, const Rows& more) {
 
 Rows peer_rows(PeerConfig& c) {
   return {
-      {"peer", "domain", &c.domain, "", Range{0, 200}, "DDS domain; both sides need the same."},
+      {"peer", "domain", &c.domain, "", dds_domain, "DDS domain; both sides need the same."},
       {"peer", "partition", &c.partition, "", TextCheck(not_a_pattern),
        "Name of this pair; both sides need the same. Pairs on one network take different names."},
       {"peer",
@@ -89,8 +93,6 @@ std::vector<Key> keys_of(ActiveConfig& c) {
       {"camera", "width_px", &c.camera.width_px, "px", Range{160, 7680}, "Width of the camera's frames."},
       {"camera", "height_px", &c.camera.height_px, "px", Range{120, 4320}, "Height of the camera's frames."},
       {"camera", "fps", &c.camera.fps, "frames/s", Range{1, 240}, "Frame rate asked of the camera."},
-      {"camera", "format", &c.camera.format, "", OneOf{{"auto", "mjpeg", "yuyv"}},
-       "How frames come over USB; auto takes what keeps up the frame rate."},
 
       {"rig",
        "calibration_file",
@@ -99,17 +101,18 @@ std::vector<Key> keys_of(ActiveConfig& c) {
        {},
        "Calibration of this monitor and camera; empty: rig.toml in the state folder of the service or user."},
       {"rig", "screen_width_mm", &c.rig.screen.width_mm, "mm", any_length_mm,
-       "Visible width of the monitor; 0: as calibrated."},
+       "Visible width of the monitor: calibrated with, then compared; 0: as calibrated."},
       {"rig", "screen_height_mm", &c.rig.screen.height_mm, "mm", any_length_mm,
-       "Visible height of the monitor; 0: as calibrated."},
+       "Visible height of the monitor: calibrated with, then compared; 0: as calibrated."},
       {"rig", "screen_width_px", &c.rig.screen.width_px, "px", any_length_px,
-       "Width of the desktop; 0: as calibrated."},
+       "Width of the desktop, which a calibration notes; 0: unknown, or as calibrated."},
       {"rig", "screen_height_px", &c.rig.screen.height_px, "px", any_length_px,
-       "Height of the desktop; 0: as calibrated."},
+       "Height of the desktop, which a calibration notes; 0: unknown, or as calibrated."},
 
-      {"touch", "detector", &c.touch.detector, "", OneOf{{"default", "thesis"}}, "How the finger is found."},
+      {"touch", "detector", &c.touch.detector, "", OneOf{{"default", "thesis"}},
+       "How the finger is found; default: the best there is, at present the thesis'."},
       {"touch", "model", &c.touch.model, "", OneOf{{"default", "thesis"}},
-       "How a finger in the image becomes a point on the screen."},
+       "How a finger in the image becomes a point on the screen; default: as above."},
       {"touch", "up_after_ms", &c.touch.up_after_ms, "ms", Range{0, 1000},
        "How long a finger must be unseen before its touch ends."},
 
@@ -148,7 +151,7 @@ std::vector<Key> keys_of(PassiveConfig& c) {
       {"safety", "max_strength", &c.safety.max_strength, "", Range{0, 1}, "No motor is ever driven stronger."},
       {"safety", "drive_ms", &c.safety.drive_ms, "ms", Range{50, 250},
        "How long one command drives a motor; touches that last renew it."},
-      {"safety", "heartbeat_timeout_ms", &c.safety.heartbeat_timeout_ms, "ms", heartbeat_timeout,
+      {"safety", "heartbeat_timeout_ms", &c.safety.heartbeat_timeout_ms, "ms", heartbeat_timeout_of_drives,
        "Without a heartbeat for so long everything is turned off."},
   };
   append(rows, peer_rows(c.peer));

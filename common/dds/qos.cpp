@@ -60,6 +60,13 @@ void reliable_state(Qos& qos) {
   qos.durability().kind = dds::TRANSIENT_LOCAL_DURABILITY_QOS;
 }
 
+// For a reader of a type whose key is the session: one sample of each.
+void one_of_each_session(dds::DataReaderQos& qos) {
+  qos.resource_limits().max_instances = max_sessions;
+  qos.resource_limits().max_samples_per_instance = 1;
+  qos.resource_limits().max_samples = max_sessions;
+}
+
 template <typename T, typename Qos>
 void choose_delivery(Qos& qos);
 template <>
@@ -69,9 +76,7 @@ void choose_delivery<TouchEvent>(dds::DataWriterQos& qos) {
 template <>
 void choose_delivery<TouchEvent>(dds::DataReaderQos& qos) {
   best_effort_newest(qos);
-  qos.resource_limits().max_instances = max_sessions;
-  qos.resource_limits().max_samples_per_instance = 1;
-  qos.resource_limits().max_samples = max_sessions;
+  one_of_each_session(qos);
 }
 template <>
 void choose_delivery<Heartbeat>(dds::DataWriterQos& qos) {
@@ -80,6 +85,7 @@ void choose_delivery<Heartbeat>(dds::DataWriterQos& qos) {
 template <>
 void choose_delivery<Heartbeat>(dds::DataReaderQos& qos) {
   best_effort_newest(qos);
+  one_of_each_session(qos);
 }
 template <>
 void choose_delivery<Felt>(dds::DataWriterQos& qos) {
@@ -96,6 +102,7 @@ void choose_delivery<SideStatus>(dds::DataWriterQos& qos) {
 template <>
 void choose_delivery<SideStatus>(dds::DataReaderQos& qos) {
   reliable_state(qos);
+  one_of_each_session(qos);
 }
 template <>
 void choose_delivery<StopAll>(dds::DataWriterQos& qos) {
@@ -104,6 +111,7 @@ void choose_delivery<StopAll>(dds::DataWriterQos& qos) {
 template <>
 void choose_delivery<StopAll>(dds::DataReaderQos& qos) {
   reliable_state(qos);
+  one_of_each_session(qos);
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <string>
 #include <string_view>
 
 #include "peer/session_id.hpp"
@@ -59,8 +60,8 @@ std::string_view cut(std::string_view text, std::size_t max_bytes) {
 
 template <std::size_t max_bytes>
 void write_text(std::string_view text, eprosima::fastrtps::fixed_string<max_bytes>& wire) {
-  const std::string_view fitting = cut(text, max_bytes);
-  wire.assign(fitting.data(), fitting.size());
+  // Not assign(): it ends the text nowhere, so that the tail of a longer one before it would be sent along.
+  wire = std::string(cut(text, max_bytes));
 }
 
 void contact_to_wire(const Contact& contact, v1::Contact& wire) {

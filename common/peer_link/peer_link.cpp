@@ -1,11 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "peer_link/peer_link.hpp"
 
+#include <algorithm>
+
 namespace telehug {
 namespace {
 
 bool same(const SideStatus& a, const SideStatus& b) {
   return a.ready == b.ready && a.stopped == b.stopped && a.reason == b.reason;
+}
+
+// A reason may come from a file, a device or a user. A word to the peer must not be lost over it.
+template <typename T>
+bool write_with_reason(Writer<T>& writer, T message) {
+  const auto is_control = [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7F; };
+  std::ranges::replace_if(message.reason, is_control, ' ');
+  if (writer.write(message)) return true;
+  std::ranges::replace_if(
+      message.reason, [](char c) { return (static_cast<unsigned char>(c) & 0x80U) != 0; }, '?');
+  return writer.write(message);
 }
 
 }  // namespace
@@ -24,7 +37,7 @@ PeerLink::PeerLink(DdsParticipant& participant, Side side, const SessionId& sess
                           heartbeat_slot_.put({heartbeat, clock.now()});
                         }),
       status_reader_(participant, [this](const SideStatus& status) { status_slot_.put(status); }),
-      stop_reader_(participant, [this](const StopAll& stop) { stopped_by_peer_ = stop.stop; }) {}
+      stop_reader_(participant, [this](const StopAll& stop) { stop_latch_.heard(stop); }) {}
 
 std::optional<HeardHeartbeat> PeerLink::serve(Timestamp now) {
   auto heard = heartbeat_slot_.take();
@@ -40,11 +53,11 @@ PeerState PeerLink::state(Timestamp now) {
 
 void PeerLink::tell(const SideStatus& status) {
   if (told_ && same(*told_, status)) return;
-  if (status_writer_.write(status)) told_ = status;
+  if (write_with_reason(status_writer_, status)) told_ = status;
 }
 
-void PeerLink::tell_stop(bool stop, const std::string& reason) {
-  stop_writer_.write({session_, side_, ++stops_told_, stop, reason});
+bool PeerLink::tell_stop(bool stop, const std::string& reason) {
+  return write_with_reason(stop_writer_, {session_, side_, ++stops_told_, stop, reason});
 }
 
 std::uint64_t PeerLink::dropped() const noexcept {

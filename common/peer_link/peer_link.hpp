@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <atomic>
 #include <optional>
 #include <string>
 
@@ -13,6 +12,7 @@
 #include "dds/writer.hpp"
 #include "peer/heartbeat_exchange.hpp"
 #include "peer/peer_monitor.hpp"
+#include "peer_link/stop_latch.hpp"
 
 namespace telehug {
 
@@ -49,15 +49,17 @@ class PeerLink {
 
   // --- housekeeping thread ---
 
-  // Tells the peer if it differs from what was told last.
+  // Tells the peer if it differs from what was told last. What the wire refuses of a reason (line breaks, bytes that
+  // are no UTF-8) is replaced.
   void tell(const SideStatus& status);
-  void tell_stop(bool stop, const std::string& reason);
+  // False if DDS refused it: tell it again.
+  [[nodiscard]] bool tell_stop(bool stop, const std::string& reason);
   [[nodiscard]] std::optional<SideStatus> take_peer_status() { return status_slot_.take(); }
 
   // --- any thread ---
 
-  // Has the peer turned everything off, and not on again?
-  [[nodiscard]] bool stopped_by_peer() const noexcept { return stopped_by_peer_; }
+  // Has the peer turned everything off, and not on again (StopLatch)?
+  [[nodiscard]] bool stopped_by_peer() const noexcept { return stop_latch_.stopped(); }
   [[nodiscard]] std::uint64_t dropped() const noexcept;  // messages that were malformed or out of range
 
  private:
@@ -67,7 +69,7 @@ class PeerLink {
   PeerMonitor monitor_;
   LatestSlot<HeardHeartbeat> heartbeat_slot_;
   LatestSlot<SideStatus> status_slot_;
-  std::atomic<bool> stopped_by_peer_ = false;
+  StopLatch stop_latch_;
   std::optional<SideStatus> told_;
   std::uint64_t stops_told_ = 0;
 

@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <memory>
+#include <string>
 
 #include "link/jacket_link.hpp"
 
@@ -22,6 +23,8 @@ class RecordingLink final : public JacketLink {
   [[nodiscard]] const LinkStatus& status() const override { return status_; }
 
  private:
+  void write(const std::string& rows);
+
   std::unique_ptr<std::FILE, int (*)(std::FILE*)> file_;
   LinkStatus status_;
 };

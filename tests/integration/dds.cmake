@@ -11,3 +11,7 @@ telehug_test(test_dds_hostile_peer KIND integration SUBJECT link
 telehug_test(test_dds_killed_peer KIND integration SUBJECT link
   SOURCES integration/dds/killed_peer_test.cpp
   DEPS telehug_dds telehug_peer)
+
+telehug_test(test_stop_switch KIND integration SUBJECT link
+  SOURCES integration/daemon/stop_switch_test.cpp
+  DEPS telehug_daemon telehug_peer)

@@ -15,3 +15,7 @@ telehug_test(test_dds KIND unit SUBJECT link
   SOURCES unit/dds/malformed_payload_test.cpp unit/dds/validate_test.cpp unit/dds/wire_test.cpp
   DEPS telehug_dds telehug_idl
   USES_FASTDDS)
+
+telehug_test(test_peer_link KIND unit SUBJECT link
+  SOURCES unit/peer_link/stop_latch_test.cpp
+  DEPS telehug_peer_link)

@@ -93,10 +93,26 @@ TEST_F(CalibrationFile, LeavesNothingBesideIt) {
   EXPECT_EQ(std::distance(fs::directory_iterator(folder_), fs::directory_iterator()), 1);
 }
 
+TEST_F(CalibrationFile, MakesItsFolder) {
+  file_ = folder_ / "state" / "telehug" / "rig.toml";
+  ASSERT_TRUE(write_calibration(file_, calibration()).ok());
+  EXPECT_TRUE(read_calibration(file_).ok());
+}
+
+TEST_F(CalibrationFile, MayLackThePixelsOfTheScreen) {
+  Calibration without = calibration();
+  without.screen.width_px = without.screen.height_px = 0;
+  ASSERT_TRUE(write_calibration(file_, without).ok());
+  const auto read = read_calibration(file_);
+  ASSERT_TRUE(read.ok()) << read.error().message;
+  EXPECT_EQ(read->screen.width_px, 0);
+}
+
 TEST_F(CalibrationFile, SaysWhyItCouldNotBeWritten) {
-  const auto written = write_calibration(folder_ / "no" / "such" / "folder.toml", calibration());
+  std::ofstream(folder_ / "file") << "no folder";
+  const auto written = write_calibration(folder_ / "file" / "rig.toml", calibration());
   ASSERT_FALSE(written.ok());
-  EXPECT_THAT(written.error().message, HasSubstr("No such file or directory"));
+  EXPECT_THAT(written.error().message, HasSubstr("Not a directory"));
 }
 
 TEST_F(CalibrationFile, SaysThatThereIsNone) {

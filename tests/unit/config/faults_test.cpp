@@ -79,6 +79,16 @@ TEST_F(ConfigFaults, IncludeAPartitionThatMatchesOtherPairs) {
   EXPECT_THAT(active_faults("[peer]\npartition = \"*\"\n"), HasSubstr("c.toml:2: peer.partition: a partition has"));
 }
 
+// What the configuration lets pass must not be refused later by DDS or by the safety stage.
+TEST_F(ConfigFaults, IncludeWhatTheDaemonsWouldRefuse) {
+  EXPECT_THAT(active_faults("[peer]\ndomain = 101\n"), HasSubstr("c.toml:2: peer.domain is 101"));
+  ConfigSources sources;
+  sources.only_file = folder_.write("p.toml", "[safety]\nheartbeat_timeout_ms = 251\n");
+  const auto config = load_passive_config(sources);
+  ASSERT_FALSE(config);
+  EXPECT_THAT(config.error().message, HasSubstr("safety.heartbeat_timeout_ms is 251; it must be within 150 .. 250 ms"));
+}
+
 TEST_F(ConfigFaults, IncludeAHeldFaceThatWouldBeRefused) {
   EXPECT_THAT(active_faults("[body_map]\nhold_ms = 4000\n"),
               HasSubstr("c.toml:2: body_map.hold_ms (4000) must not exceed body_map.max_age_ms (3000)"));

@@ -99,6 +99,19 @@ TEST(TheWireForm, KeepsEveryFieldOfAStatusAndAStop) {
   EXPECT_EQ(stop_back.reason, stop.reason);
 }
 
+TEST(TheWireForm, LeavesNothingOfALongerTextBehindAShorterOne) {
+  SideStatus status = example_status();
+  v1::SideStatus wire;
+  to_wire(status, wire);
+  for (const char* reason : {"short", ""}) {
+    status.reason = reason;
+    to_wire(status, wire);
+    SideStatus back;
+    EXPECT_EQ(from_wire(wire, back), nullptr);
+    EXPECT_EQ(back.reason, reason);
+  }
+}
+
 TEST(TheWireForm, CutsTextsThatAreTooLongBetweenTwoCharacters) {
   SideStatus status = example_status();
   status.reason = std::string(254, 'a') + "\u00e4\u00e4";  // the first of them lies over the end

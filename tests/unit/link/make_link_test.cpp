@@ -68,6 +68,17 @@ TEST(MakeLink, SaysThatARecordingCantBeWritten) {
   EXPECT_THAT(link.error().message, HasSubstr("/nonexistent/commands.csv"));
 }
 
+TEST(RecordingLink, IsNoJacketAnyMoreWhenTheDiskIsFull) {
+  const FakeClock clock;
+  auto link = make_link("record:/dev/full");
+  ASSERT_TRUE(link);
+  for (int i = 0; i < 1000; ++i)
+    EXPECT_FALSE((*link)->send({{3, 255, 150ms}}, clock.now()));
+  (*link)->stop_all(clock.now());
+  EXPECT_EQ((*link)->status().state, LinkState::absent);
+  EXPECT_THAT((*link)->status().problem, HasSubstr("/dev/full: No space left on device"));
+}
+
 TEST(RecordingLink, WritesEveryCommandWithItsTime) {
   FakeClock clock;
   const auto file = temporary_file();

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "daemon/stop_switch.hpp"
+
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <utility>
+
+namespace telehug {
+namespace {
+
+constexpr std::size_t longest_reason = 200;  // bytes
+
+// Without control characters, and not cut within a UTF-8 character.
+std::string one_line(std::string text) {
+  std::size_t end = std::min(text.size(), longest_reason);
+  while (end > 0 && end < text.size() && (static_cast<unsigned char>(text[end]) & 0xC0U) == 0x80U)
+    --end;
+  text.resize(end);
+  std::ranges::replace_if(
+      text, [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7F; }, ' ');
+  return text;
+}
+
+std::string reason_in(const nlohmann::json& request) {
+  const auto reason = request.find("reason");
+  const bool given = reason != request.end() && reason->is_string() && !reason->get_ref<const std::string&>().empty();
+  return given ? one_line(reason->get<std::string>()) : "stopped on this side";
+}
+
+}  // namespace
+
+void StopSwitch::serve(ControlServer& control) {
+  control.on("stop", [this](const nlohmann::json& request) { return stop(request); });
+  control.on("resume", [this](const nlohmann::json&) { return resume(); });
+}
+
+nlohmann::json StopSwitch::stop(const nlohmann::json& request) {
+  return set(true, reason_in(request));
+}
+
+nlohmann::json StopSwitch::resume() {
+  return set(false, "");
+}
+
+nlohmann::json StopSwitch::set(bool stopped, std::string reason) {
+  spdlog::warn("{}", stopped ? "stopped: " + reason : "resumed");
+  const std::lock_guard lock(mutex_);
+  reason_ = std::move(reason);
+  stopped_ = stopped;
+  untold_ = true;
+  return {{"stopped", stopped}};
+}
+
+std::string StopSwitch::reason() const {
+  const std::lock_guard lock(mutex_);
+  return reason_;
+}
+
+void StopSwitch::tell(PeerLink& peer) {
+  bool stopped = false;
+  std::string reason;
+  {
+    const std::lock_guard lock(mutex_);
+    if (!std::exchange(untold_, false)) return;
+    stopped = stopped_;
+    reason = reason_;
+  }
+  if (peer.tell_stop(stopped, reason)) return;
+  const std::lock_guard lock(mutex_);
+  untold_ = true;
+}
+
+}  // namespace telehug

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <atomic>
+#include <mutex>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "peer_link/peer_link.hpp"
+#include "service/control_server.hpp"
+
+namespace telehug {
+
+// This side's own stop: set and lifted on the local socket, followed by the pipeline, told to the peer.
+class StopSwitch {
+ public:
+  // Adds the commands "stop" and "resume" to `control`, which this must outlive.
+  void serve(ControlServer& control);
+
+  // Stops whatever the request says beside it: a reason that is no text is left out.
+  nlohmann::json stop(const nlohmann::json& request);
+  nlohmann::json resume();
+
+  // --- any thread; nobody waits here for the network ---
+
+  [[nodiscard]] bool stopped() const noexcept { return stopped_; }
+  // One line; empty if not stopped.
+  [[nodiscard]] std::string reason() const;
+
+  // --- housekeeping thread ---
+
+  // Tells the peer of the last stop or resume until it has left. A resume is told even if nothing was stopped here: the
+  // peer may still hold the stop of an earlier run of this program.
+  void tell(PeerLink& peer);
+
+ private:
+  nlohmann::json set(bool stopped, std::string reason);
+
+  std::atomic<bool> stopped_ = false;
+  mutable std::mutex mutex_;
+  std::string reason_;   // guarded by mutex_
+  bool untold_ = false;  // guarded by mutex_
+};
+
+}  // namespace telehug

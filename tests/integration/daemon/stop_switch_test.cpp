@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "daemon/stop_switch.hpp"
+
+#include <gtest/gtest.h>
+
+#include <thread>
+
+#include "doubles/inbox.hpp"
+#include "doubles/unique_domain.hpp"
+#include "peer/session_id.hpp"
+
+namespace telehug {
+namespace {
+
+using nlohmann::json;
+
+TEST(AStop, StopsWhateverItsReasonIs) {
+  for (const json& request : {json{{"command", "stop"}}, json{{"reason", 5}}, json{{"reason", ""}}}) {
+    StopSwitch stop;
+    stop.stop(request);
+    EXPECT_TRUE(stop.stopped());
+    EXPECT_EQ(stop.reason(), "stopped on this side");
+  }
+}
+
+TEST(AStop, CutsALongReasonBetweenTwoCharacters) {
+  StopSwitch stop;
+  stop.stop({{"reason", std::string(199, 'x') + "\u00e4 and more"}});
+  EXPECT_EQ(stop.reason(), std::string(199, 'x'));
+}
+
+class StopOverDds : public testing::Test {
+ protected:
+  [[nodiscard]] DdsSettings settings(Side side) const {
+    return {.side = side, .domain_id = domain_.id(), .partition = domain_.partition()};
+  }
+
+  // Tells until the other side holds what is expected.
+  static bool eventually(StopSwitch& stop, PeerLink& from, const PeerLink& to, bool stopped) {
+    const auto give_up = std::chrono::steady_clock::now() + 10s;
+    while (std::chrono::steady_clock::now() < give_up) {
+      stop.tell(from);
+      if (to.stopped_by_peer() == stopped) return true;
+      std::this_thread::sleep_for(2ms);
+    }
+    return false;
+  }
+
+  UniqueDomain domain_;
+  DdsParticipant active_{settings(Side::active)};
+  DdsParticipant passive_{settings(Side::passive)};
+  PeerLink to_active_{passive_, Side::passive, new_session_id(), 250ms};
+};
+
+TEST_F(StopOverDds, ReachesThePeerWithAReasonThatTheWireRefuses) {
+  Inbox<StopAll> inbox;
+  const Reader<StopAll> reader(passive_, inbox.callback());
+  PeerLink to_passive(active_, Side::active, new_session_id(), 250ms);
+  ASSERT_TRUE(to_passive.tell_stop(true, "first line\nsecond \xff line"));
+  ASSERT_TRUE(inbox.wait_for(1));
+  EXPECT_EQ(inbox.messages().front().reason, "first line second ? line");
+}
+
+TEST_F(StopOverDds, OutlivesItsSenderAndIsLiftedByItsNextRun) {
+  StopSwitch first_run;
+  first_run.stop({{"reason", "enough"}});
+  {
+    PeerLink to_passive(active_, Side::active, new_session_id(), 250ms);
+    ASSERT_TRUE(eventually(first_run, to_passive, to_active_, true));
+  }
+  StopSwitch second_run;
+  PeerLink to_passive(active_, Side::active, new_session_id(), 250ms);
+  EXPECT_FALSE(second_run.stopped());
+  EXPECT_TRUE(to_active_.stopped_by_peer());
+  second_run.resume();
+  EXPECT_TRUE(eventually(second_run, to_passive, to_active_, false));
+}
+
+}  // namespace
+}  // namespace telehug
