@@ -16,6 +16,7 @@
 #include "demo_world.hpp"
 #include "jacket/load_jacket_profile.hpp"
 #include "service/exit_code.hpp"
+#include "service/signals.hpp"
 
 namespace {
 
@@ -39,7 +40,7 @@ constexpr Duration shortest_felt_touch = 100ms;
 
 // Reads what both sides tell until the time is over and nothing is touched, stops the active side, and reads their last
 // words.
-DemoRecord watch(DemoWorld& world, DemoView& view, const Options& options) {
+DemoRecord watch(DemoWorld& world, DemoView& view, const Options& options, Signals& signals) {
   DemoRecord record;
   ControlClient passive = world.connect_to_passive();
   (void)passive.ask({{"command", "watch"}});
@@ -60,6 +61,7 @@ DemoRecord watch(DemoWorld& world, DemoView& view, const Options& options) {
   std::optional<Timestamp> stopped;
   while (!stopped || std::chrono::steady_clock::now() < *stopped + last_words) {
     world.check_all_run();
+    if (signals.take()) throw std::runtime_error("interrupted");
     const auto now = std::chrono::steady_clock::now();
     const bool untouched = record.published.empty() || record.published.back().phase == "up";
     if (!stopped && now >= end && (untouched || now >= end + longest_touch)) {
@@ -91,6 +93,8 @@ int count(const DemoRecord& record, const char* phase) {
 }
 
 ExitCode run(const Options& options) {
+  // A demo that is interrupted, or whose terminal is closed, still ends the programs it started.
+  Signals signals;
   const auto profile = load_jacket_profile(options.profile);
   if (!profile) {
     fmt::print(stderr, "telehug-demo: {}\n", profile.error().message);
@@ -108,7 +112,7 @@ ExitCode run(const Options& options) {
   DemoRecord record;
   {
     DemoView view(*profile, !options.plain && isatty(STDOUT_FILENO) != 0);
-    record = watch(world, view, options);
+    record = watch(world, view, options, signals);
   }
   ControlClient passive = world.connect_to_passive();
   ControlClient active = world.connect_to_active();
