@@ -38,7 +38,7 @@ TEST_F(BadInput, ARecordingThatIsMissingIsToldAndReplayedWhenItIsThere) {
   pair.camera = "replay:" + folder.string();
   start_all();
   ASSERT_TRUE(eventually([&] { return pair.complains(Side::active, folder.string()); })) << pair.logs();
-  EXPECT_EQ(pair.counter(Side::active, "camera_losses"), 1U);
+  EXPECT_GE(pair.counter(Side::active, "camera_losses"), 1U);
   EXPECT_EQ(pair.status(Side::active).at("state"), "fault");
   EXPECT_FALSE(pair.camera_open());
 
@@ -71,7 +71,7 @@ TEST_F(BadInput, AWebcamThatIsMissingIsToldByName) {
   pair.active_settings = {"camera.device=" + device};
   start_all();
   ASSERT_TRUE(eventually([&] { return pair.complains(Side::active, device); })) << pair.logs();
-  EXPECT_EQ(pair.counter(Side::active, "camera_losses"), 1U);
+  EXPECT_GE(pair.counter(Side::active, "camera_losses"), 1U);
   EXPECT_EQ(pair.status(Side::active).at("state"), "fault");
   EXPECT_EQ(pair.active->end(), to_int(ExitCode::ok));
 }

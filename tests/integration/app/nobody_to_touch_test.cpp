@@ -39,7 +39,7 @@ TEST_F(NobodyToTouch, TheCameraIsOpenOnlyWhileAPeerIsConnected) {
   EXPECT_TRUE(eventually([&] { return !pair.camera_open(); })) << pair.logs();
   EXPECT_TRUE(eventually([&] { return pair.status(Side::active).at("screen").at("open") == false; })) << pair.logs();
   EXPECT_TRUE(pair.complains(Side::active, "no peer is connected"));
-  EXPECT_EQ(pair.counter(Side::active, "peer_losses"), 1U);
+  EXPECT_GE(pair.counter(Side::active, "peer_losses"), 1U);
 }
 
 TEST_F(NobodyToTouch, WithoutAFaceTouchesAreCountedAndNothingIsSentUntilThereIsOne) {

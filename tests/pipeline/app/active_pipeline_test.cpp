@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The whole touch path, from a drawn picture to the event that is sent for it.
+#include "active_pipeline.hpp"
+
+#include <gtest/gtest.h>
+
+#include "body_map/vitruvian_grid.hpp"
+#include "doubles/allocation_counter.hpp"
+#include "doubles/drawn_finger.hpp"
+#include "doubles/example_messages.hpp"
+#include "doubles/fake_clock.hpp"
+
+namespace telehug {
+namespace {
+
+constexpr ImageSize image{1280, 720};
+constexpr BorderLine border{520, 0};
+constexpr ScreenSize screen{400, 300, 1280, 960};
+constexpr Duration frame_period = 33ms;
+
+// A camera 60 mm above the screen's top: a point y below it is seen past the border by 28800 px mm (1 / (y + 60) -
+// 1 / 360), and one x beside the middle in column 900 x / (y + 60).
+Calibration calibration() {
+  const std::array touches{MeasuredTouch{{200, 100}, 28800 * (1 / 160.0 - 1 / 360.0), 0},
+                           MeasuredTouch{{230, 220}, 28800 * (1 / 280.0 - 1 / 360.0), 900 * 30 / 280.0}};
+  auto model = ThesisTouchModel::solve(screen, touches[0], touches[1]);
+  return {"drawn", "2026-11-22T00:00:00Z", image, screen, border, touches, model.value()};
+}
+
+class ActivePipelineTest : public testing::Test {
+ protected:
+  ActivePipelineTest() {
+    // A face 60 mm high: boxes of 30 mm, the grid from (125, 80) to (275, 300).
+    map = make_body_map({160, 20, 80, 60}, 300).value();
+    map.version = 7;
+    map.seen = clock.now();
+  }
+
+  // A finger whose tip is at (200, 150) mm, in box 13.
+  static const cv::Mat& touching() {
+    static const cv::Mat picture = DrawnScene(border, image).finger(613, 55, 57).noise(1, 4).picture();
+    return picture;
+  }
+  static const cv::Mat& nobody() {
+    static const cv::Mat picture = DrawnScene(border, image).noise(2, 4).picture();
+    return picture;
+  }
+
+  const TouchEvent* see(const cv::Mat& picture, bool sending = true) {
+    clock.advance(frame_period);
+    frame.bgr = picture;
+    ++frame.sequence;
+    frame.time = clock.now() - 5ms;
+    return pipeline.process(frame, map, sending);
+  }
+  const TouchEvent* miss(Duration after = frame_period) {
+    clock.advance(after);
+    return pipeline.process_nothing(map, true);
+  }
+  std::uint64_t counter(const char* name) { return metrics.counter(name).value(); }
+
+  FakeClock clock;
+  MetricsRegistry metrics;
+  BodyMap map;
+  Frame frame;
+  ActivePipeline pipeline{calibration(), ActivePipelineOptions{}, example_session, clock, metrics};
+};
+
+TEST_F(ActivePipelineTest, SendsTheBoxUnderTheFinger) {
+  const TouchEvent* event = see(touching());
+  ASSERT_NE(event, nullptr);
+  EXPECT_EQ(event->session, example_session);
+  EXPECT_EQ(event->sequence, 1U);
+  EXPECT_EQ(event->frame_time_ns, to_ns(frame.time));
+  EXPECT_EQ(event->sent_time_ns, to_ns(clock.now()));
+  EXPECT_EQ(event->body_map_version, 7U);
+  ASSERT_EQ(event->contacts.size(), 1U);
+  const Contact& contact = event->contacts[0];
+  EXPECT_EQ(contact.phase, Phase::down);
+  EXPECT_EQ(contact.box, 13);
+  EXPECT_EQ(contact.grid, map.shape);
+  EXPECT_NEAR(contact.screen.x_mm, 200, 3);
+  EXPECT_NEAR(contact.screen.y_mm, 150, 6);
+  EXPECT_NEAR(contact.body.x_fh, 0, 0.05);
+  EXPECT_NEAR(contact.body.y_fh, 70 / 60.0, 0.1);
+}
+
+TEST_F(ActivePipelineTest, SendsOneDownThenMovesThenOneUp) {
+  const std::uint32_t id = see(touching())->contacts.at(0).id;
+  for (int i = 0; i < 3; ++i) {
+    const TouchEvent* event = see(touching());
+    ASSERT_NE(event, nullptr);
+    ASSERT_EQ(event->contacts.size(), 1U);
+    EXPECT_EQ(event->contacts[0].id, id);
+    EXPECT_EQ(event->contacts[0].phase, Phase::move);
+  }
+  int ups = 0;
+  for (int i = 0; i < 20; ++i) {
+    if (const TouchEvent* event = see(nobody())) {
+      for (const Contact& contact : event->contacts)
+        ups += contact.phase == Phase::up ? 1 : 0;
+    }
+  }
+  EXPECT_EQ(ups, 1);
+  EXPECT_EQ(see(nobody()), nullptr) << "there is nothing more to say";
+  EXPECT_EQ(counter("touches_seen"), 1U);
+  EXPECT_EQ(counter("frames"), 25U);
+}
+
+TEST_F(ActivePipelineTest, SaysNothingWhileItIsNotSending) {
+  EXPECT_EQ(see(touching(), false), nullptr);
+  EXPECT_EQ(see(touching(), false), nullptr);
+  EXPECT_EQ(counter("touches_seen"), 1U);
+  const TouchEvent* event = see(touching(), true);
+  ASSERT_NE(event, nullptr) << "the finger is still there";
+  EXPECT_EQ(event->contacts.at(0).phase, Phase::down);
+}
+
+TEST_F(ActivePipelineTest, EndsWhatItSentWhenItStopsSending) {
+  ASSERT_NE(see(touching()), nullptr);
+  const TouchEvent* event = see(touching(), false);
+  ASSERT_NE(event, nullptr);
+  ASSERT_FALSE(event->transitions.empty());
+  EXPECT_EQ(event->transitions.back().contact.phase, Phase::up);
+  for (const Contact& contact : event->contacts)
+    EXPECT_EQ(contact.phase, Phase::up);
+}
+
+TEST_F(ActivePipelineTest, EndsATouchWhenNoPictureComes) {
+  ASSERT_NE(see(touching()), nullptr);
+  ASSERT_NE(miss(), nullptr) << "the finger may be there again in the next picture";
+  const TouchEvent* event = miss(200ms);
+  ASSERT_NE(event, nullptr);
+  EXPECT_EQ(event->transitions.back().contact.phase, Phase::up);
+  EXPECT_TRUE(pipeline.contacts().empty() || pipeline.contacts()[0].phase == Phase::up);
+}
+
+TEST_F(ActivePipelineTest, EndsATouchWhenTheMapBecomesTooOld) {
+  ASSERT_NE(see(touching()), nullptr);
+  map.seen = clock.now() - 10s;
+  const TouchEvent* event = see(touching());
+  ASSERT_NE(event, nullptr);
+  EXPECT_EQ(event->transitions.back().contact.phase, Phase::up);
+}
+
+TEST_F(ActivePipelineTest, CountsATouchWithoutAFaceAndSendsNothing) {
+  map = {};
+  EXPECT_EQ(see(touching()), nullptr);
+  EXPECT_EQ(see(touching()), nullptr);
+  EXPECT_EQ(pipeline.nobody_touched().no_face, 1U);
+}
+
+TEST_F(ActivePipelineTest, CountsPicturesOfAnotherSizeAndGoesOn) {
+  EXPECT_EQ(see(cv::Mat(480, 640, CV_8UC3, cv::Scalar(0, 0, 0))), nullptr);
+  EXPECT_EQ(see(cv::Mat()), nullptr);
+  EXPECT_EQ(counter("frames_of_another_size"), 2U);
+  EXPECT_NE(see(touching()), nullptr);
+}
+
+TEST_F(ActivePipelineTest, LetsTimeRiseWhenAPictureIsOlderThanTheLastMiss) {
+  ASSERT_NE(see(touching()), nullptr);
+  const std::int64_t before_ns = miss()->frame_time_ns;
+  clock.advance(1ms);
+  frame.time = clock.now() - 20ms;
+  const TouchEvent* event = pipeline.process(frame, map, true);
+  ASSERT_NE(event, nullptr);
+  EXPECT_GT(event->frame_time_ns, before_ns);
+}
+
+TEST_F(ActivePipelineTest, AllocatesNothingPerFrameAfterTheFirst) {
+  if (!allocations_are_counted()) GTEST_SKIP() << "the sanitizer has a heap of its own";
+  see(touching());
+  see(nobody());
+  const std::uint64_t before = allocation_count();
+  int events = 0;
+  for (int i = 0; i < 200; ++i) {
+    map.seen = clock.now();
+    events += see(i % 40 < 20 ? touching() : nobody()) != nullptr ? 1 : 0;
+  }
+  for (int i = 0; i < 5; ++i)
+    miss();
+  EXPECT_EQ(allocation_count() - before, 0U);
+  EXPECT_GT(events, 100);
+}
+
+}  // namespace
+}  // namespace telehug
