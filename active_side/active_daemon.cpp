@@ -29,7 +29,7 @@ ActiveDaemon::ActiveDaemon(const ActiveConfig& config, std::unique_ptr<FrameSour
       camera_name_(camera_->name()),
       participant_(dds_settings(config.peer, Side::active)),
       touch_writer_(participant_),
-      peer_(participant_, Side::active, session_, std::chrono::milliseconds(config.heartbeat_timeout_ms)),
+      peer_(participant_, Side::active, session_, std::chrono::milliseconds(config.heartbeat_timeout_ms), clock),
       events_published_(metrics_.counter("events_published")),
       touches_published_(metrics_.counter("touches_published")),
       publish_failed_(metrics_.counter("events_not_published")),

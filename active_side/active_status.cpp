@@ -68,13 +68,15 @@ Json ActiveDaemon::problems(const TouchThreadState& state, const FaceState& face
   if (!state.peer.alive) {
     list.push_back(
         problem_json("no peer is connected", "start telehug-passive on the other PC; domain and partition must agree"));
+  } else if (told && told->stopped && !stop_.stopped() && !peer_.stopped_by_peer()) {
+    list.push_back(problem_json("the other side still holds to a stop of this one", "run `telehug resume`"));
   } else if (told && !told->ready && !told->stopped) {
     list.push_back(
         problem_json("the other side is not ready: " + told->reason, "see `telehug status` on the other PC"));
   }
   if (state.camera_lost) list.push_back(problem_json(state.camera_problem, "plug the camera in, or correct [camera]"));
   if (state.recording_over) list.push_back(problem_json("the recording is over", "start again to replay it"));
-  if (face.open && !face.problem.empty()) {
+  if (!face.problem.empty()) {
     list.push_back(problem_json(face.problem, "touches are not sent until a face is found; check [body_map] picture"));
   }
   return list;
@@ -88,7 +90,7 @@ Json ActiveDaemon::status() const {
   }
   const FaceState face = state.face ? state.face->state() : FaceState{};
   const bool stopped = stop_.stopped() || peer_.stopped_by_peer();
-  const bool fault = state.camera_lost || !state.face || (face.open && !face.problem.empty());
+  const bool fault = state.camera_lost || !state.face || !face.problem.empty();
 
   Json counters = metrics_.counters_json();
   counters["touches_without_face"] = state.nobody.no_face;
@@ -153,7 +155,7 @@ void ActiveDaemon::tell_watchers() {
                                                                                      ? state.camera_problem
                                                                                  : state.camera_open ? "camera open"
                                                                                                      : "camera closed");
-  if (face.open) {
+  if (face.open || !face.problem.empty()) {
     say_face_.say(face.problem.empty() ? spdlog::level::info : spdlog::level::warn,
                   face.problem.empty() ? "face found" : face.problem);
   }

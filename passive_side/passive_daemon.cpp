@@ -36,7 +36,8 @@ PassiveDaemon::PassiveDaemon(const PassiveConfig& config, JacketProfile profile,
       total_latency_(metrics_.latency("event_to_link")),
       participant_(dds_settings(config.peer, Side::passive)),
       felt_writer_(participant_),
-      peer_(participant_, Side::passive, session_, std::chrono::milliseconds(config.safety.heartbeat_timeout_ms)),
+      peer_(participant_, Side::passive, session_, std::chrono::milliseconds(config.safety.heartbeat_timeout_ms),
+            clock),
       touch_reader_(
           std::make_unique<Reader<TouchEvent>>(participant_,
                                                [this](const TouchEvent& event) {
@@ -100,10 +101,10 @@ void PassiveDaemon::drive_loop() {
 }
 
 void PassiveDaemon::hear_peer(Timestamp now) {
-  const auto heartbeat = peer_.serve(now);
-  if (!heartbeat) return;
+  const auto heard = peer_.serve(now);
+  if (!heard) return;
   safety_.on_heartbeat(now);
-  pipeline_.observe(*heartbeat, now);
+  pipeline_.observe(heard->heartbeat, heard->time);
 }
 
 void PassiveDaemon::follow_stops(Timestamp now) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "daemon/status_parts.hpp"
 
+#include <cmath>
 #include <utility>
 
 namespace telehug {
@@ -16,7 +17,7 @@ nlohmann::json peer_stop_problem_json(const std::optional<SideStatus>& told) {
 
 nlohmann::json peer_json(const PeerState& peer, const std::optional<SideStatus>& told) {
   nlohmann::json json = {{"connected", peer.alive}, {"session", peer.session}};
-  if (peer.round_trip) json["round_trip_ms"] = to_ms(*peer.round_trip);
+  if (peer.round_trip) json["round_trip_ms"] = std::round(to_ms(*peer.round_trip) * 1000) / 1000;
   if (told && peer.alive) {
     json["stopped"] = told->stopped;
     json["ready"] = told->ready;

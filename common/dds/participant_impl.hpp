@@ -32,7 +32,8 @@ struct DdsParticipant::Impl {
   eprosima::fastdds::dds::Subscriber* subscriber = nullptr;
 
  private:
-  eprosima::fastdds::dds::Topic* find_or_create(const std::string& name, const eprosima::fastdds::dds::TypeSupport& type);
+  eprosima::fastdds::dds::Topic* find_or_create(const std::string& name,
+                                                const eprosima::fastdds::dds::TypeSupport& type);
 };
 
 }  // namespace telehug

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "dds/dds_error.hpp"
 #include "dds/reader.hpp"
+#include "dds/dds_error.hpp"
 
 #include <fmt/format.h>
 #include <fastdds/dds/subscriber/DataReader.hpp>

@@ -23,7 +23,8 @@ bool write_with_reason(Writer<T>& writer, T message) {
 
 }  // namespace
 
-PeerLink::PeerLink(DdsParticipant& participant, Side side, const SessionId& session, Duration heartbeat_timeout)
+PeerLink::PeerLink(DdsParticipant& participant, Side side, const SessionId& session, Duration heartbeat_timeout,
+                   const Clock& clock)
     : side_(side),
       session_(session),
       exchange_(session, side),
@@ -31,16 +32,19 @@ PeerLink::PeerLink(DdsParticipant& participant, Side side, const SessionId& sess
       heartbeat_writer_(participant),
       status_writer_(participant),
       stop_writer_(participant),
-      heartbeat_reader_(participant, [this](const Heartbeat& heartbeat) { heartbeat_slot_.put(heartbeat); }),
+      heartbeat_reader_(participant,
+                        [this, &clock](const Heartbeat& heartbeat) {
+                          heartbeat_slot_.put({heartbeat, clock.now()});
+                        }),
       status_reader_(participant, [this](const SideStatus& status) { status_slot_.put(status); }),
       stop_reader_(participant, [this](const StopAll& stop) { stop_latch_.heard(stop); }) {}
 
-std::optional<Heartbeat> PeerLink::serve(Timestamp now) {
-  auto heartbeat = heartbeat_slot_.take();
-  if (heartbeat && !monitor_.heard(*heartbeat, now)) heartbeat.reset();
-  if (heartbeat) exchange_.heard(*heartbeat, now);
+std::optional<HeardHeartbeat> PeerLink::serve(Timestamp now) {
+  auto heard = heartbeat_slot_.take();
+  if (heard && !monitor_.heard(heard->heartbeat, heard->time)) heard.reset();
+  if (heard) exchange_.heard(heard->heartbeat, heard->time);
   if (now >= exchange_.next_due()) heartbeat_writer_.write(exchange_.beat(now));
-  return heartbeat;
+  return heard;
 }
 
 PeerState PeerLink::state(Timestamp now) {

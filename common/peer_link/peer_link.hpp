@@ -24,17 +24,24 @@ struct PeerState {
   std::uint64_t losses = 0;
 };
 
+// A heartbeat and when it came.
+struct HeardHeartbeat {
+  Heartbeat heartbeat;
+  Timestamp time;
+};
+
 // Heartbeats, status and stop between this side and the other. Serve it from the pipeline's own thread: a heartbeat
 // says that the pipeline runs.
 class PeerLink {
  public:
-  // Throws as Reader and Writer do. `participant` outlives it.
-  PeerLink(DdsParticipant& participant, Side side, const SessionId& session, Duration heartbeat_timeout);
+  // Throws as Reader and Writer do. `participant` and `clock` outlive it.
+  PeerLink(DdsParticipant& participant, Side side, const SessionId& session, Duration heartbeat_timeout,
+           const Clock& clock);
 
   // --- pipeline's thread ---
 
   // Takes in what came and sends what is due. The peer's newest heartbeat, if a fresh one was among it.
-  std::optional<Heartbeat> serve(Timestamp now);
+  std::optional<HeardHeartbeat> serve(Timestamp now);
 
   [[nodiscard]] bool alive(Timestamp now) noexcept { return monitor_.alive(now); }
   [[nodiscard]] const SessionId& peer_session() const noexcept { return monitor_.session(); }
@@ -60,7 +67,7 @@ class PeerLink {
   SessionId session_;
   HeartbeatExchange exchange_;
   PeerMonitor monitor_;
-  LatestSlot<Heartbeat> heartbeat_slot_;
+  LatestSlot<HeardHeartbeat> heartbeat_slot_;
   LatestSlot<SideStatus> status_slot_;
   StopLatch stop_latch_;
   std::optional<SideStatus> told_;

@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
@@ -44,6 +45,8 @@ struct DemoRecord {
   std::vector<FeltAnswer> felt;  // as the wearer's side answered
   std::vector<PinChange> pins;
   std::uint64_t dropped_events = 0;  // not told, because this program read too slowly
+  // Touches that begin later are cut short by the demo's own end and need not be felt.
+  std::int64_t judged_until_ns = std::numeric_limits<std::int64_t>::max();
 
   // Adds an event of a daemon's `watch`; others than those above are ignored.
   void add(const nlohmann::json& event);

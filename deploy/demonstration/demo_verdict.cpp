@@ -65,7 +65,7 @@ bool ran_within(const std::vector<PinChange>& pins, int channel, const Span& spa
 
 void check_answers(const DemoRecord& record, const JacketProfile& profile, std::vector<std::string>& faults) {
   for (const PublishedTouch& touch : record.published) {
-    if (touch.phase != "down") continue;
+    if (touch.phase != "down" || touch.frame_time_ns > record.judged_until_ns) continue;
     const auto answered = std::ranges::find_if(record.felt, [&](const FeltAnswer& answer) {
       return answer.contact == touch.contact && answer.phase == "down";
     });
@@ -84,7 +84,7 @@ void check_answers(const DemoRecord& record, const JacketProfile& profile, std::
 
 void check_pins(const DemoRecord& record, const JacketProfile& profile, std::vector<std::string>& faults) {
   for (const PublishedTouch& touch : record.published) {
-    if (touch.phase != "down") continue;
+    if (touch.phase != "down" || touch.frame_time_ns > record.judged_until_ns) continue;
     for (const int id : actuators_of(touch.box, profile)) {
       const Span span{touch.frame_time_ns, touch.frame_time_ns + latest_start_ns};
       if (!ran_within(record.pins, channel_of(id, profile), span)) {

@@ -5,6 +5,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
 #include <cstdio>
 
 #include "jacket/body_picture.hpp"
@@ -18,17 +19,24 @@ constexpr int grid_width = 5 * columns + 3;
 constexpr const char* highlighted = "\x1b[30;43m";
 constexpr const char* plain = "\x1b[0m";
 
-// One line of the grid as the toucher sees it.
-std::string grid_line(int row, int rows, int touched) {
+constexpr std::array face{"        .-------.        ", "        | o   o |        ", "        |   v   |        ",
+                          "         '-...-'         "};
+constexpr int first_grid_line = static_cast<int>(face.size());
+
+// One line of the child's picture as the toucher sees it: the face, and the grid below the chin.
+std::string picture_line(int line, int rows, int touched) {
+  const std::string gap(grid_width - 5 * columns, ' ');
+  if (line < first_grid_line) return face.at(static_cast<std::size_t>(line)) + gap;
+  const int row = line - first_grid_line;
   if (row >= rows) return std::string(grid_width, ' ');
-  std::string line;
+  std::string text;
   for (int column = 0; column < columns; ++column) {
     const int box = row * columns + column + 1;
     const std::string cell = fmt::format("[{:>2}]", box);
-    line += box == touched ? highlighted + cell + plain : cell;
-    line += ' ';
+    text += box == touched ? highlighted + cell + plain : cell;
+    text += ' ';
   }
-  return line + std::string(grid_width - 5 * columns, ' ');
+  return text + gap;
 }
 
 }  // namespace
@@ -79,7 +87,7 @@ void DemoView::draw() {
   drawn_ = true;
   fmt::print("\x1b[2K   the child's picture          the jacket\n");
   for (std::size_t i = 0; i < body.size(); ++i)
-    fmt::print("\x1b[2K   {}{}\n", grid_line(static_cast<int>(i) - 2, i < 2 ? 0 : rows_, touched_box_), body[i]);
+    fmt::print("\x1b[2K   {}{}\n", picture_line(static_cast<int>(i), rows_, touched_box_), body[i]);
   fmt::print("\x1b[2K   touched: {}\n\x1b[2K   felt:    {}\n", last_touch_, last_felt_);
   (void)std::fflush(stdout);
 }

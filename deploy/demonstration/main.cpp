@@ -7,6 +7,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <exception>
+#include <optional>
 
 #include "capture/virtual_rig/virtual_rig.hpp"
 #include "demo_record.hpp"
@@ -32,9 +33,12 @@ struct Options {
 
 constexpr double largest_mean_error_mm = 10;  // a touch farther off than that counts as wrong
 
-constexpr Duration last_words = 1s;  // what was touched before the end is still answered and ends
+constexpr Duration last_words = 1s;     // what was touched before the end is still answered and ends
+constexpr Duration longest_touch = 5s;  // that the end waits for
+constexpr Duration shortest_felt_touch = 100ms;
 
-// Reads what both sides tell until the time is over, stops the active side, and reads their last words.
+// Reads what both sides tell until the time is over and nothing is touched, stops the active side, and reads their last
+// words.
 DemoRecord watch(DemoWorld& world, DemoView& view, const Options& options) {
   DemoRecord record;
   ControlClient passive = world.connect_to_passive();
@@ -53,12 +57,16 @@ DemoRecord watch(DemoWorld& world, DemoView& view, const Options& options) {
   };
   const auto started = std::chrono::steady_clock::now();
   const auto end = started + std::chrono::duration_cast<Duration>(std::chrono::duration<double>(options.seconds));
-  bool stopped = false;
-  while (std::chrono::steady_clock::now() < end + last_words) {
+  std::optional<Timestamp> stopped;
+  while (!stopped || std::chrono::steady_clock::now() < *stopped + last_words) {
     world.check_all_run();
-    if (!stopped && std::chrono::steady_clock::now() >= end) {
+    const auto now = std::chrono::steady_clock::now();
+    const bool untouched = record.published.empty() || record.published.back().phase == "up";
+    if (!stopped && now >= end && (untouched || now >= end + longest_touch)) {
       ControlClient other = world.connect_to_active();
-      stopped = other.ask({{"command", "stop"}, {"reason", "the demo is over"}}).ok();
+      (void)other.ask({{"command", "stop"}, {"reason", "the demo is over"}});
+      stopped = now;
+      record.judged_until_ns = to_ns(now - shortest_felt_touch);
     }
     hear(active, 20ms);
     while (hear(active, 0ms) || hear(passive, 0ms)) {

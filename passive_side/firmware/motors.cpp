@@ -153,7 +153,8 @@ void set(uint8_t channel, uint8_t intensity, uint16_t duration_ms) {
 void commit_change() {
   uint8_t drawn = 0;
   ATOMIC_BLOCK(ATOMIC_RESTORESTATE) {
-    while (drawn == shown || drawn == next) ++drawn;
+    while (drawn == shown || drawn == next)
+      ++drawn;
   }
   for (uint8_t i = 0; i < slices; ++i) {
     const uint8_t bit = 1 << (slices - 1 - i);
