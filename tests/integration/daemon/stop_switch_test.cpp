@@ -46,16 +46,17 @@ class StopOverDds : public testing::Test {
     return false;
   }
 
+  SteadyClock clock_;
   UniqueDomain domain_;
   DdsParticipant active_{settings(Side::active)};
   DdsParticipant passive_{settings(Side::passive)};
-  PeerLink to_active_{passive_, Side::passive, new_session_id(), 250ms};
+  PeerLink to_active_{passive_, Side::passive, new_session_id(), 250ms, clock_};
 };
 
 TEST_F(StopOverDds, ReachesThePeerWithAReasonThatTheWireRefuses) {
   Inbox<StopAll> inbox;
   const Reader<StopAll> reader(passive_, inbox.callback());
-  PeerLink to_passive(active_, Side::active, new_session_id(), 250ms);
+  PeerLink to_passive(active_, Side::active, new_session_id(), 250ms, clock_);
   ASSERT_TRUE(to_passive.tell_stop(true, "first line\nsecond \xff line"));
   ASSERT_TRUE(inbox.wait_for(1));
   EXPECT_EQ(inbox.messages().front().reason, "first line second ? line");
@@ -65,11 +66,11 @@ TEST_F(StopOverDds, OutlivesItsSenderAndIsLiftedByItsNextRun) {
   StopSwitch first_run;
   first_run.stop({{"reason", "enough"}});
   {
-    PeerLink to_passive(active_, Side::active, new_session_id(), 250ms);
+    PeerLink to_passive(active_, Side::active, new_session_id(), 250ms, clock_);
     ASSERT_TRUE(eventually(first_run, to_passive, to_active_, true));
   }
   StopSwitch second_run;
-  PeerLink to_passive(active_, Side::active, new_session_id(), 250ms);
+  PeerLink to_passive(active_, Side::active, new_session_id(), 250ms, clock_);
   EXPECT_FALSE(second_run.stopped());
   EXPECT_TRUE(to_active_.stopped_by_peer());
   second_run.resume();
