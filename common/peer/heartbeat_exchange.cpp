@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "peer/heartbeat_exchange.hpp"
 
+#include <algorithm>
 #include <utility>
 
 namespace telehug {
@@ -13,7 +14,8 @@ HeartbeatExchange::HeartbeatExchange(SessionId session, Side side) {
 const Heartbeat& HeartbeatExchange::beat(Timestamp now) {
   own_.sequence += 1;
   own_.sent_time_ns = to_ns(now);
-  own_.echo_held_ns = own_.echo_session.empty() ? 0 : to_ns(now) - to_ns(peer_heard_);
+  // The peer's beat may have come in since the caller looked at the clock.
+  own_.echo_held_ns = own_.echo_session.empty() ? 0 : std::max<std::int64_t>(to_ns(now) - to_ns(peer_heard_), 0);
   next_due_ = (now - next_due_ < heartbeat_interval ? next_due_ : now) + heartbeat_interval;
   return own_;
 }

@@ -46,7 +46,7 @@ class StopOverDds : public testing::Test {
     return false;
   }
 
-  const SteadyClock clock_;
+  SteadyClock clock_;
   UniqueDomain domain_;
   DdsParticipant active_{settings(Side::active)};
   DdsParticipant passive_{settings(Side::passive)};

@@ -35,6 +35,13 @@ TEST(HeartbeatExchange, BeatsTenTimesASecondAndNumbersTheBeats) {
   EXPECT_EQ(beats, 10U);
 }
 
+// A negative time would be refused by the wire: a beat less.
+TEST(HeartbeatExchange, HasHeldABeatForNoTimeThatCameInAfterTheClockWasLookedAt) {
+  HeartbeatExchange exchange(example_session, Side::active);
+  exchange.heard(beat_of(other_session, 1), from_ns(1'000'000'010));
+  EXPECT_EQ(exchange.beat(from_ns(1'000'000'000)).echo_held_ns, 0);
+}
+
 TEST(HeartbeatExchange, KeepsItsRhythmWhenABeatIsLateAndDoesNotCatchUpAfterAStall) {
   FakeClock clock;
   HeartbeatExchange exchange(example_session, Side::active);
