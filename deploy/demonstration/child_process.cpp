@@ -3,8 +3,9 @@
 
 #include <fcntl.h>
 #include <signal.h>
-#include <spawn.h>
+#include <sys/prctl.h>
 #include <sys/wait.h>
+#include <unistd.h>
 
 #include <stdexcept>
 #include <thread>
@@ -12,29 +13,20 @@
 namespace telehug {
 namespace {
 
-struct SpawnSettings {
-  posix_spawnattr_t attributes{};
-  posix_spawn_file_actions_t files{};
-
-  // The child's signals are as at a shell's, whatever is held back here.
-  explicit SpawnSettings(const std::filesystem::path& log) {
-    sigset_t none;
-    sigemptyset(&none);
-    posix_spawnattr_init(&attributes);
-    posix_spawnattr_setsigmask(&attributes, &none);
-    posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGMASK);
-    posix_spawn_file_actions_init(&files);
-    posix_spawn_file_actions_addopen(&files, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
-    posix_spawn_file_actions_addopen(&files, STDOUT_FILENO, log.c_str(), O_WRONLY | O_CREAT | O_APPEND, 0644);
-    posix_spawn_file_actions_adddup2(&files, STDOUT_FILENO, STDERR_FILENO);
-  }
-  ~SpawnSettings() {
-    posix_spawnattr_destroy(&attributes);
-    posix_spawn_file_actions_destroy(&files);
-  }
-  SpawnSettings(const SpawnSettings&) = delete;
-  SpawnSettings& operator=(const SpawnSettings&) = delete;
-};
+// In the child, between fork and exec: only what signal-safety(7) allows. Its signals are as at a shell's, whatever is
+// held back here.
+[[noreturn]] void become(char* const* arguments, const char* log, pid_t parent) {
+  sigset_t none;
+  sigemptyset(&none);
+  sigprocmask(SIG_SETMASK, &none, nullptr);
+  prctl(PR_SET_PDEATHSIG, SIGKILL);
+  if (getppid() != parent) _exit(127);  // it ended before it could be watched
+  dup2(open("/dev/null", O_RDONLY | O_CLOEXEC), STDIN_FILENO);
+  dup2(open(log, O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0644), STDOUT_FILENO);
+  dup2(STDOUT_FILENO, STDERR_FILENO);
+  execv(arguments[0], arguments);
+  _exit(127);
+}
 
 }  // namespace
 
@@ -45,11 +37,10 @@ ChildProcess::ChildProcess(const std::vector<std::string>& command, const std::f
   for (std::string& argument : arguments)
     pointers.push_back(argument.data());
   pointers.push_back(nullptr);
-  const SpawnSettings settings(log);
-  if (posix_spawn(&pid_, command.front().c_str(), &settings.files, &settings.attributes, pointers.data(), environ) !=
-      0) {
-    throw std::runtime_error(command.front() + " can't be started: is it built?");
-  }
+  const pid_t parent = getpid();
+  pid_ = access(command.front().c_str(), X_OK) == 0 ? fork() : -1;
+  if (pid_ < 0) throw std::runtime_error(command.front() + " can't be started: is it built?");
+  if (pid_ == 0) become(pointers.data(), log.c_str(), parent);
 }
 
 ChildProcess::~ChildProcess() {

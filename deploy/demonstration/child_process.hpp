@@ -12,7 +12,9 @@
 
 namespace telehug {
 
-// A program that runs beside this one, its output in a file. It is asked to end, then made to, when this object goes.
+// A program that runs beside this one, its output in a file. It is asked to end, then made to, when this object goes,
+// and killed when the thread that started it ends in any way: a daemon left behind would take the next simulated jacket
+// that gets the same terminal.
 class ChildProcess {
  public:
   // Throws std::runtime_error if it can't be started.

@@ -103,7 +103,7 @@ TEST_F(BadInput, ACalibrationThatBecomesCorruptLeavesTheOneInUse) {
   EXPECT_TRUE(eventually([&] { return pair.complains(Side::active, pair.calibration.string() + ":1:"); }))
       << pair.logs();
   EXPECT_TRUE(pair.active->runs());
-  EXPECT_TRUE(pair.felt()) << pair.logs();
+  expect_felt();
 }
 
 TEST_F(BadInput, AWrongConfigurationIsRefusedWithAllItsFaults) {

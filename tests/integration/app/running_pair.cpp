@@ -119,7 +119,7 @@ bool RunningPair::start_all() {
   return eventually([this] { return felt(); });
 }
 
-Outcome RunningPair::run(std::vector<std::string> command) const {
+Outcome RunningPair::run(const std::vector<std::string>& command) const {
   const auto log = folder / "run.log";
   std::filesystem::remove(log);
   ChildProcess child(command, log);

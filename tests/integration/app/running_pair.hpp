@@ -57,7 +57,7 @@ class RunningPair {
   bool start_all();
 
   // Runs a program to its end.
-  [[nodiscard]] Outcome run(std::vector<std::string> command) const;
+  [[nodiscard]] Outcome run(const std::vector<std::string>& command) const;
   // `telehug COMMAND --socket ...`
   [[nodiscard]] Outcome telehug(const std::string& command, Side side) const;
   [[nodiscard]] std::vector<std::string> active_command() const;
