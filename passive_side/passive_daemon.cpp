@@ -12,6 +12,7 @@ namespace {
 constexpr Duration drive_round = 10ms;  // the safety stage wants to be served this often
 constexpr Duration housekeeping_round = 20ms;
 constexpr Duration state_interval = 100ms;
+constexpr Duration oldest_heartbeat = 50ms;  // between its arrival and its being read
 
 SafetyLimits safety_limits(const SafetyConfig& config) {
   SafetyLimits limits;
@@ -33,6 +34,7 @@ PassiveDaemon::PassiveDaemon(const PassiveConfig& config, JacketProfile profile,
       pipeline_(profile_, safety_, std::chrono::milliseconds(config.safety.drive_ms), session_, clock_, metrics_),
       events_received_(metrics_.counter("events_received")),
       events_replaced_(metrics_.counter("events_replaced_by_newer")),
+      events_unvouched_(metrics_.counter("events_without_heartbeat")),
       total_latency_(metrics_.latency("event_to_link")),
       participant_(dds_settings(config.peer, Side::passive)),
       felt_writer_(participant_),
@@ -83,7 +85,10 @@ void PassiveDaemon::drive_loop() {
     // The safety stage takes a time that goes back for a fault: each call gets the present one.
     hear_peer(clock_.now());
     follow_stops(clock_.now());
-    if (arrival) {
+    // Only the sender whose heartbeats are heard may touch: another's would vouch for it.
+    const bool known_sender = arrival && arrival->event.session == peer_.peer_session();
+    if (arrival && !known_sender) events_unvouched_.add();
+    if (known_sender) {
       for (const Felt& felt : pipeline_.process(arrival->event, arrival->time)) {
         felt_writer_.write(felt);
         own_state_.last_felt = felt;
@@ -103,8 +108,9 @@ void PassiveDaemon::drive_loop() {
 void PassiveDaemon::hear_peer(Timestamp now) {
   const auto heard = peer_.serve(now);
   if (!heard) return;
-  safety_.on_heartbeat(now);
   pipeline_.observe(heard->heartbeat, heard->time);
+  // One that has waited here while this thread was held up vouches for nothing any more.
+  if (now - heard->time < oldest_heartbeat) safety_.on_heartbeat(now);
 }
 
 void PassiveDaemon::follow_stops(Timestamp now) {

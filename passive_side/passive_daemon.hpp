@@ -95,6 +95,7 @@ class PassiveDaemon {
   boost::container::static_vector<std::uint8_t, max_actuators> told_running_;
   Counter& events_received_;
   Counter& events_replaced_;
+  Counter& events_unvouched_;
   LatencyHistogram& total_latency_;
 
   // Between the threads
