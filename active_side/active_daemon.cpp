@@ -47,6 +47,9 @@ ActiveDaemon::ActiveDaemon(const ActiveConfig& config, std::unique_ptr<FrameSour
 
 ActiveDaemon::~ActiveDaemon() {
   end_thread();
+  felt_reader_.reset();
+  // The queue's own destructor (Boost 1.74) does not destroy what it holds.
+  felt_.consume_all([](const Felt&) {});
 }
 
 ExitCode ActiveDaemon::run(Signals& signals) {

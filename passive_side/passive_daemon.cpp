@@ -75,6 +75,8 @@ ExitCode PassiveDaemon::run(Signals& signals) {
 void PassiveDaemon::end_thread() {
   ending_ = true;
   if (drive_thread_.joinable()) drive_thread_.join();
+  // The queue's own destructor (Boost 1.74) does not destroy what it holds.
+  felt_.consume_all([](const Felt&) {});
 }
 
 // --- drive thread ---

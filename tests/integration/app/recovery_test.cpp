@@ -55,7 +55,7 @@ TEST_F(Recovery, AnActiveSideThatIsStartedAgainIsFeltAgain) {
 
 TEST_F(Recovery, APassiveSideThatIsStartedAgainFeelsAgain) {
   ASSERT_TRUE(pair.start_all()) << pair.logs();
-  EXPECT_EQ(pair.passive->end(), 0);
+  EXPECT_EQ(pair.passive->end(), 0) << pair.logs();
   EXPECT_TRUE(eventually([&] { return !pair.felt(); })) << pair.logs();
   EXPECT_TRUE(eventually([&] { return pair.complains(Side::active, "no peer is connected"); })) << pair.logs();
   pair.start_passive();
@@ -107,7 +107,7 @@ TEST_F(Recovery, ADeviceThatTalksNonsenseIsCountedAndNeverArmed) {
   })) << pair.logs();
   EXPECT_TRUE(pair.complains(Side::passive, "no jacket answers")) << pair.logs();
   EXPECT_NE(pair.jacket_state(), "armed");
-  EXPECT_EQ(pair.passive->end(), 0);
+  EXPECT_EQ(pair.passive->end(), 0) << pair.logs();
   close(device);
 }
 

@@ -62,6 +62,7 @@ TEST_P(Stop, HoldsForAPeerThatIsStartedAgain) {
 TEST_P(Stop, EndsWithAResumeAfterTheSideThatStoppedWasStartedAgain) {
   ASSERT_EQ(pair.telehug("stop", GetParam()).code, 0);
   ASSERT_TRUE(eventually([&] { return all_stopped(); })) << pair.logs();
+  ASSERT_TRUE(eventually([&] { return !pair.felt(); })) << pair.logs();
   if (GetParam() == Side::active) {
     pair.active->kill_now();
     pair.start_active();
@@ -78,7 +79,7 @@ TEST_P(Stop, EndsWithAResumeAfterTheSideThatStoppedWasStartedAgain) {
   } else {
     EXPECT_TRUE(pair.complains(Side::active, "the other side has stopped everything")) << pair.logs();
   }
-  EXPECT_FALSE(pair.felt());
+  EXPECT_FALSE(pair.felt()) << pair.logs();
   EXPECT_EQ(pair.telehug("resume", GetParam()).code, 0);
   EXPECT_TRUE(eventually([&] { return pair.felt(); })) << pair.logs();
 }
