@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <chrono>
 #include <filesystem>
 #include <memory>
@@ -63,7 +64,9 @@ Result<Calibration> from_recording(const std::filesystem::path& folder, const st
 
 Result<Calibration> from_virtual_rig(const VirtualRigSettings& settings, const std::vector<int>& frames) {
   const ScratchFolder scratch;
-  const Status exported = export_rig_directory(settings, scratch.path(), {.sequence_frames = 0, .single_frames = 0});
+  const int touches = frames.empty() ? 2 : *std::max_element(frames.begin(), frames.end());
+  const Status exported = export_rig_directory(
+      settings, scratch.path(), {.calibration_touches = touches, .sequence_frames = 0, .single_frames = 0});
   if (!exported) return exported.error();
   auto calibration = from_recording(scratch.path(), frames);
   if (calibration) calibration->camera = "virtual";

@@ -15,7 +15,7 @@
 namespace telehug {
 namespace {
 
-constexpr Duration longest_start = 20s;
+constexpr Duration longest_start = 60s;
 
 std::filesystem::path make_folder() {
   std::string name = (std::filesystem::temp_directory_path() / "telehug-demo-XXXXXX").string();

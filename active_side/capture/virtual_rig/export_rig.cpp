@@ -3,10 +3,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <fstream>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "pictures/picture_file.hpp"
 
@@ -53,7 +55,9 @@ class RigExporter {
   Status write_calibration(VirtualRig& rig) {
     std::string csv = "frame,x_mm,y_mm\n";
     int number = 0;
-    for (const ScreenPoint& point : calibration_points(rig_settings_)) {
+    std::vector<ScreenPoint> points = calibration_points(rig_settings_);
+    points.resize(std::min(points.size(), static_cast<std::size_t>(std::max(settings_.calibration_touches, 0))));
+    for (const ScreenPoint& point : points) {
       const std::string name = fmt::format("{:02}", ++number);
       csv += fmt::format("{},{:.2f},{:.2f}\n", name, point.x_mm, point.y_mm);
       const fs::path file = path_ / "calibration" / (name + ".jpg");

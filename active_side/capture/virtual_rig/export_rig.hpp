@@ -8,8 +8,9 @@
 namespace telehug {
 
 struct ExportSettings {
-  int sequence_frames = 120;  // how much of the script, from its beginning, becomes `sequence`; 0: none
-  int single_frames = 12;     // random touches, hovering fingers and empty pictures that become `frames`; 0: none
+  int calibration_touches = 9;  // of calibration_points(), from the first on
+  int sequence_frames = 120;    // how much of the script, from its beginning, becomes `sequence`; 0: none
+  int single_frames = 12;       // random touches, hovering fingers and empty pictures that become `frames`; 0: none
 };
 
 // Writes a recording of a virtual rig (layout: rig_directory.hpp) with its truth: rig.toml, background, triangle,

@@ -15,7 +15,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-constexpr Duration longest_run = 20s;
+constexpr Duration longest_run = 60s;
 
 std::string program(const std::string& name) {
   return TELEHUG_BIN "/" + name;
