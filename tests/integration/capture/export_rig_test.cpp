@@ -17,7 +17,7 @@ TEST(ExportedRig, OpensAgainWithItsTruth) {
   settings.image = {640, 360};
   settings.focal_px = 550;
   settings.script = {{{0.5, 0.8, {170, 200}, {210, 220}}}, 1.3};
-  ASSERT_TRUE(export_rig_directory(settings, folder.path(), {30, 4}));
+  ASSERT_TRUE(export_rig_directory(settings, folder.path(), {.sequence_frames = 30, .single_frames = 4}));
 
   const auto rig = open_rig_directory(folder.path());
   ASSERT_TRUE(rig) << rig.error().message;
