@@ -11,7 +11,7 @@ ActivePipeline::ActivePipeline(const Calibration& calibration, const ActivePipel
                                const SessionId& session, const Clock& clock, MetricsRegistry& metrics)
     : image_(calibration.image),
       screen_(calibration.screen),
-      model_(calibration.model),
+      model_(calibration.model()),
       detector_(calibration.border, calibration.image, options.detector),
       tracker_(options.tracker),
       builder_(session),

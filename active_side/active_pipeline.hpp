@@ -3,7 +3,7 @@
 
 #include "body_map/body_map.hpp"
 #include "boxes_under.hpp"
-#include "calibration/calibration_file.hpp"
+#include "calibration/calibration.hpp"
 #include "capture/frame.hpp"
 #include "common/clock.hpp"
 #include "finger/thesis_detector.hpp"
@@ -42,7 +42,7 @@ class ActivePipeline {
 
   ImageSize image_;
   ScreenSize screen_;
-  ThesisTouchModel model_;
+  TouchModel model_;
   ThesisDetector detector_;
   ContactTracker tracker_;
   TouchEventBuilder builder_;

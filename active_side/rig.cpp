@@ -8,6 +8,7 @@
 
 #include "body_map/haar_face_finder.hpp"
 #include "body_map/picture_grabber.hpp"
+#include "calibration/calibration_file.hpp"
 #include "config/places.hpp"
 
 namespace telehug {

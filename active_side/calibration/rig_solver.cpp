@@ -160,7 +160,7 @@ std::optional<Exclusion> find_bad_touch(const RigObservations& all, const RigPri
 
 RigSolution describe(const RigObservations& all, const RigLeastSquares& used, const RigParameters& parameters,
                      PictureOrientation orientation) {
-  RigSolution solution{make_rig_model(parameters, all.image, orientation), parameters, {}, {}, {}, 0, 0};
+  RigSolution solution{make_rig_model(parameters, all.image, orientation), parameters, {}, {}, {}, 0, 0, 0};
   solution.covariance = used.covariance(parameters);
   solution.reduced_chi2 = used.reduced_chi2(parameters);
   for (const PointObservation& touch : all.touches) {
@@ -210,6 +210,7 @@ Result<RigSolution> solve_rig(const RigObservations& observations, const RigSolv
   const RigLeastSquares used(bad ? without(observations, bad->touch) : observations, priors, best.orientation);
   RigSolution solution = describe(observations, used, bad ? bad->fit.parameters : best.parameters, best.orientation);
   if (bad) solution.bad_touch = bad->touch;
+  solution.cost = best.cost;
   return solution;
 }
 

@@ -114,8 +114,8 @@ const LevelLine* nearest_line(const std::vector<LevelLine>& lines, const ImagePo
 }
 
 // The line on which the two edges of the triangle meet: one edge falls to the left of the vertex, one to its right.
-const LevelLine* line_at_triangle(const std::vector<LineSegment>& segments, const std::vector<LevelLine>& lines,
-                                  double least_length_px) {
+std::optional<ScreenBorder> line_at_triangle(const std::vector<LineSegment>& segments,
+                                             const std::vector<LevelLine>& lines, double least_length_px) {
   std::vector<LineSegment> edges;
   for (const LineSegment& segment : segments) {
     const double deg = std::abs(inclination_deg(segment));
@@ -123,7 +123,7 @@ const LevelLine* line_at_triangle(const std::vector<LineSegment>& segments, cons
       edges.push_back(segment);
     }
   }
-  const LevelLine* best = nullptr;
+  std::optional<ScreenBorder> best;
   double best_length_px = 0;
   for (const LineSegment& left : edges) {
     if (inclination_deg(left) > 0) continue;  // rises to the right, to the vertex
@@ -137,7 +137,7 @@ const LevelLine* line_at_triangle(const std::vector<LineSegment>& segments, cons
       const LevelLine* line = nearest_line(lines, *vertex, least_length_px);
       const double length = length_px(left) + length_px(right);
       if (line != nullptr && length > best_length_px) {
-        best = line;
+        best = ScreenBorder{line->line, line->length_px, vertex};
         best_length_px = length;
       }
     }
@@ -172,15 +172,18 @@ Result<ScreenBorder> find_screen_border(const cv::Mat& bgr, BorderChoice choice)
                     "the camera look straight down along the screen and light the desk",
                     lines.empty() ? 0.0 : lines.front().length_px, bgr.cols)};
   }
-  const LevelLine* const line = choice == BorderChoice::triangle ? line_at_triangle(segments, lines, least_length_px)
-                                                                 : longest_line(lines, 0.5 * bgr.cols);
-  if (line == nullptr) {
+  if (choice == BorderChoice::longest) {
+    const LevelLine* const line = longest_line(lines, 0.5 * bgr.cols);
+    return ScreenBorder{line->line, line->length_px, std::nullopt};
+  }
+  const auto border = line_at_triangle(segments, lines, least_length_px);
+  if (!border) {
     return Error{fmt::format(
         "none of {} level lines carries the triangle's vertex: show the triangle with its point on the screen's bottom "
         "edge, in the camera's view",
         lines.size())};
   }
-  return ScreenBorder{line->line, line->length_px};
+  return *border;
 }
 
 }  // namespace telehug

@@ -9,10 +9,12 @@
 #pragma once
 
 #include <opencv2/core/mat.hpp>
+#include <optional>
 #include <vector>
 
 #include "calibration/border_line.hpp"
 #include "common/result.hpp"
+#include "common/units.hpp"
 
 namespace telehug {
 
@@ -31,6 +33,7 @@ enum class BorderChoice {
 struct ScreenBorder {
   BorderLine line;
   double length_px = 0;
+  std::optional<ImagePoint> vertex;  // of the triangle, if it picked the line
 };
 
 // `bgr` is CV_8UC3. The error says what was not found and what to do.

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <memory>
 
+#include "calibration/calibration_file.hpp"
 #include "capture/rig_directory.hpp"
 #include "capture/virtual_rig/export_rig.hpp"
 #include "commands/calibrate_by_hand.hpp"
@@ -20,6 +21,7 @@ struct Options {
   ConfigOptions config;
   std::string source;
   std::string out;
+  std::string model = "default";
   std::vector<int> frames;
   double width_mm = 0;
   double height_mm = 0;
@@ -56,19 +58,22 @@ class ScratchFolder {
   std::filesystem::path path_;
 };
 
-Result<Calibration> from_recording(const std::filesystem::path& folder, const std::vector<int>& frames) {
+Result<Calibration> from_recording(const std::filesystem::path& folder, const std::string& model,
+                                   const std::vector<int>& frames) {
   const auto rig = open_rig_directory(folder);
   if (!rig) return rig.error();
-  return calibrate_from_recording(*rig, frames, utc_now());
+  return calibrate_from_recording(*rig, model, frames, utc_now());
 }
 
-Result<Calibration> from_virtual_rig(const VirtualRigSettings& settings, const std::vector<int>& frames) {
+Result<Calibration> from_virtual_rig(const VirtualRigSettings& settings, const std::string& model,
+                                     const std::vector<int>& frames) {
   const ScratchFolder scratch;
-  const int touches = frames.empty() ? 2 : *std::max_element(frames.begin(), frames.end());
+  const int all = model == "thesis" ? 2 : static_cast<int>(calibration_points(settings).size());
+  const int touches = frames.empty() ? all : *std::max_element(frames.begin(), frames.end());
   const Status exported = export_rig_directory(
       settings, scratch.path(), {.calibration_touches = touches, .sequence_frames = 0, .single_frames = 0});
   if (!exported) return exported.error();
-  auto calibration = from_recording(scratch.path(), frames);
+  auto calibration = from_recording(scratch.path(), model, frames);
   if (calibration) calibration->camera = "virtual";
   return calibration;
 }
@@ -80,9 +85,9 @@ Result<Calibration> calibrate(const Options& options, const ActiveConfig& config
   const CaptureSettings capture = capture_settings(config);
   switch (source->kind) {
     case CameraSourceKind::recording:
-      return from_recording(source->folder.substr(0, source->folder.find('?')), options.frames);
+      return from_recording(source->folder.substr(0, source->folder.find('?')), options.model, options.frames);
     case CameraSourceKind::virtual_rig:
-      return from_virtual_rig(capture.virtual_rig, options.frames);
+      return from_virtual_rig(capture.virtual_rig, options.model, options.frames);
     case CameraSourceKind::webcam:
       break;
   }
@@ -112,8 +117,8 @@ ExitCode run(const Options& options) {
   }
   fmt::print("calibrated: {}, screen {:.0f} x {:.0f} mm, camera {:.0f} mm {} the screen's top\nwritten to {}\n",
              calibration->camera, calibration->screen.width_mm, calibration->screen.height_mm,
-             std::abs(calibration->model.camera_below_top_mm()),
-             calibration->model.camera_below_top_mm() < 0 ? "above" : "below", out.string());
+             std::abs(calibration->camera_below_top_mm()), calibration->camera_below_top_mm() < 0 ? "above" : "below",
+             out.string());
   return ExitCode::ok;
 }
 
@@ -126,9 +131,11 @@ void add_calibrate(CLI::App& app, ExitCode& result) {
   add_config_options(*command, options->config);
   command->add_option("--source", options->source, "webcam (asks for the touches), replay:DIR or virtual");
   command->add_option("--out", options->out, "The calibration file; else where `run` looks for it");
-  command->add_option("--frames", options->frames, "replay: and virtual: which two calibration pictures, e.g. 1,2")
-      ->delimiter(',')
-      ->expected(2);
+  command->add_option("--frames", options->frames, "replay: and virtual: which calibration pictures, e.g. 1,2")
+      ->delimiter(',');
+  command->add_option("--model", options->model, "Which model places fingers on the screen; thesis uses two touches")
+      ->check(CLI::IsMember({"thesis", "default"}))
+      ->capture_default_str();
   command->add_option("--width-mm", options->width_mm, "webcam: width of the visible screen");
   command->add_option("--height-mm", options->height_mm, "webcam: height of the visible screen");
   command->add_option("--point", options->points, "webcam: a point to touch, in mm from the screen's top left: X,Y")

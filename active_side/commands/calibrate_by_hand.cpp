@@ -166,7 +166,7 @@ Result<Calibration> calibrate_by_hand(FrameSource& camera, const HandCalibration
   }
   const auto model = ThesisTouchModel::solve(screen, touches[0], touches[1]);
   if (!model) return model.error();
-  return Calibration{camera.name(), date, camera.size(), screen, border->line, touches, *model};
+  return Calibration{camera.name(), date, camera.size(), screen, border->line, ThesisCalibration{touches, *model}};
 }
 
 }  // namespace telehug

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "calibration/calibration_file.hpp"
+#include "calibration/calibration.hpp"
 #include "capture/frame_source.hpp"
 #include "common/result.hpp"
 

@@ -110,7 +110,7 @@ std::string format_error_table(const EvalTouchReport& report) {
                  name_of_choice(report.options.detector, report.detector),
                  name_of_choice(report.options.model, report.model));
   fmt::format_to(out, "border v = {:.1f} px {:+.4f} u; camera {:.0f} mm below the screen's top\n",
-                 calibration.border.v0_px, calibration.border.slope, calibration.model.camera_below_top_mm());
+                 calibration.border.v0_px, calibration.border.slope, calibration.camera_below_top_mm());
   for (const std::string& fault : report.unreadable)
     fmt::format_to(out, "not used: {}\n", fault);
   if (!report.score) {

@@ -3,29 +3,19 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <array>
-#include <charconv>
 #include <opencv2/core/mat.hpp>
 #include <stdexcept>
 
 #include "calibration/screen_border.hpp"
+#include "eval/calibration_touches.hpp"
+#include "eval/default_calibration.hpp"
 #include "finger/thesis_detector.hpp"
 #include "pictures/picture_file.hpp"
 #include "touch/screen_points.hpp"
 
 namespace telehug {
 namespace {
-
-const CalibrationTouch* touch_numbered(const RigDirectory& rig, int number) {
-  const auto found = std::find_if(rig.calibration.begin(), rig.calibration.end(), [number](const CalibrationTouch& t) {
-    int value = 0;
-    const char* const end = t.frame.name.data() + t.frame.name.size();
-    const auto parsed = std::from_chars(t.frame.name.data(), end, value);
-    return parsed.ec == std::errc{} && parsed.ptr == end && value == number;
-  });
-  return found == rig.calibration.end() ? nullptr : &*found;
-}
 
 Result<BorderLine> find_border(const RigDirectory& rig, const std::filesystem::path& first_touch) {
   const auto source = rig.triangle ? *rig.triangle : rig.background.value_or(first_touch);
@@ -36,29 +26,22 @@ Result<BorderLine> find_border(const RigDirectory& rig, const std::filesystem::p
   return border->line;
 }
 
-}  // namespace
-
-Result<Calibration> calibrate_from_recording(const RigDirectory& rig, const std::vector<int>& frames,
-                                             const std::string& date) {
+Result<Calibration> calibrate_thesis_from_recording(const RigDirectory& rig, const std::vector<int>& frames,
+                                                    const std::string& date) {
   const std::vector<int> numbers = frames.empty() ? std::vector{1, 2} : frames;
   if (numbers.size() != 2) {
     return Error{
         fmt::format("the thesis' model is calibrated with 2 touches, not {}: name two, such as 1,2", numbers.size())};
   }
-  std::array<const CalibrationTouch*, 2> known{};
-  for (std::size_t i = 0; i < known.size(); ++i) {
-    known[i] = touch_numbered(rig, numbers[i]);
-    if (known[i] == nullptr) {
-      return Error{
-          fmt::format("{} has no calibration touch {}: see its calibration.csv", rig.path.string(), numbers[i])};
-    }
-  }
+  const auto touched = calibration_touches(rig, numbers);
+  if (!touched) return touched.error();
+  const std::vector<const CalibrationTouch*>& known = *touched;
   const auto border = find_border(rig, known[0]->frame.picture);
   if (!border) return border.error();
 
   ImageSize image{};
   std::array<MeasuredTouch, 2> touches{};
-  for (std::size_t i = 0; i < known.size(); ++i) {
+  for (std::size_t i = 0; i < touches.size(); ++i) {
     const auto picture = read_picture(known[i]->frame.picture);
     if (!picture) return picture.error();
     if (i == 0) image = {picture->cols, picture->rows};
@@ -81,7 +64,16 @@ Result<Calibration> calibrate_from_recording(const RigDirectory& rig, const std:
   }
   const auto model = ThesisTouchModel::solve(rig.screen, touches[0], touches[1]);
   if (!model) return Error{fmt::format("{}: {}", rig.path.string(), model.error().message)};
-  return Calibration{"recording " + rig.path.string(), date, image, rig.screen, *border, touches, *model};
+  return Calibration{"recording " + rig.path.string(),  date, image, rig.screen, *border,
+                     ThesisCalibration{touches, *model}};
+}
+
+}  // namespace
+
+Result<Calibration> calibrate_from_recording(const RigDirectory& rig, const std::string& model,
+                                             const std::vector<int>& frames, const std::string& date) {
+  return model == "thesis" ? calibrate_thesis_from_recording(rig, frames, date)
+                           : calibrate_default_from_recording(rig, frames, date);
 }
 
 }  // namespace telehug

@@ -63,7 +63,7 @@ class Evaluation {
       return {};
     }
     const auto touched =
-        screen_points(detector_.detect(*picture), report_.calibration.model, report_.calibration.screen, image);
+        screen_points(detector_.detect(*picture), report_.calibration.model(), report_.calibration.screen, image);
     report_.dropped += touched.dropped;
     return touched.points;
   }
@@ -107,10 +107,11 @@ Result<EvalTouchReport> eval_touch(const EvalTouchOptions& options) {
     return Error{
         fmt::format("{} has no part \"{}\"; there can be: frames, hard, sequence", options.rig.string(), options.part)};
   }
-  auto calibration = calibrate_from_recording(*rig, options.calibration, "");
+  auto calibration = calibrate_from_recording(*rig, options.model, options.calibration, "");
   if (!calibration) return calibration.error();
 
-  EvalTouchReport report{options, "thesis", "thesis", std::move(*calibration), {}, {}, 0, std::nullopt};
+  const std::string model = calibration->model_name();
+  EvalTouchReport report{options, "thesis", model, std::move(*calibration), {}, {}, 0, std::nullopt};
   Evaluation(report).run(*part);
   if (!part->truth.empty()) report.score = score_touches(report.found, part->truth);
   if (!options.out.empty()) {

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "calibration/calibration_file.hpp"
+#include "calibration/calibration.hpp"
 #include "common/result.hpp"
 #include "eval/touch_score.hpp"
 
@@ -21,8 +21,9 @@ struct EvalTouchOptions {
   std::filesystem::path out;         // CSV: frame,contact,x_mm,y_mm; empty: none is written
   std::string part = "frames";       // frames, hard (each picture alone), sequence (one 30 Hz recording)
   std::string detector = "default";  // thesis, default: the best there is, at present the thesis'
-  std::string model = "default";     // likewise
-  std::vector<int> calibration;      // numbers of the calibration frames; empty: what the model needs (thesis: 1, 2)
+  std::string model = "default";     // thesis, default: the camera solved from all touches
+  std::vector<int>
+      calibration;  // numbers of the calibration frames; empty: what the model uses (thesis: 1, 2; default: all)
 };
 
 struct EvalTouchReport {

@@ -3,7 +3,7 @@
 
 #include <cstddef>
 
-#include "calibration/thesis_touch_model.hpp"
+#include "calibration/touch_model.hpp"
 #include "common/units.hpp"
 #include "finger/finger.hpp"
 #include "touch/contact_state.hpp"
@@ -19,8 +19,8 @@ struct TouchedPoints {
 };
 
 // Where fingers touch the screen, in the order of `fingers`. `image` is the size of the pictures they were found in.
-[[nodiscard]] TouchedPoints screen_points(const Fingers& fingers, const ThesisTouchModel& model,
-                                          const ScreenSize& screen, ImageSize image);
+[[nodiscard]] TouchedPoints screen_points(const Fingers& fingers, const TouchModel& model, const ScreenSize& screen,
+                                          ImageSize image);
 
 // The signed column of the thesis: from the image centre, positive to the right.
 [[nodiscard]] constexpr double column_from_centre_px(double u_px, ImageSize image) noexcept {

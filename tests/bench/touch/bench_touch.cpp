@@ -71,7 +71,7 @@ struct Recording {
 Recording load(const std::filesystem::path& folder) {
   const auto rig = open_rig_directory(folder);
   if (!rig) throw std::runtime_error(rig.error().message);
-  auto calibration = calibrate_from_recording(*rig, {}, "");
+  auto calibration = calibrate_from_recording(*rig, "thesis", {}, "");
   if (!calibration) throw std::runtime_error(calibration.error().message);
   Recording recording{*std::move(calibration), {}};
   const RigPart* const part = rig->part("sequence");
@@ -114,7 +114,7 @@ std::vector<Figure> measure_path(const Recording& recording, bool continuity) {
     Stopwatch watch;
     const Fingers& fingers = detector.detect(picture);
     const double detect_ms = watch.lap_ms();
-    const TouchedPoints touched = screen_points(fingers, calibration.model, calibration.screen, calibration.image);
+    const TouchedPoints touched = screen_points(fingers, calibration.model(), calibration.screen, calibration.image);
     const double model_ms = watch.lap_ms();
     const Timestamp time = Timestamp{} + i * 33ms;
     const ContactStates& contacts = tracker.update(touched.points, time);

@@ -25,7 +25,7 @@ Calibration calibration() {
   const std::array touches{MeasuredTouch{{200, 100}, 28800 * (1 / 160.0 - 1 / 360.0), 0},
                            MeasuredTouch{{230, 220}, 28800 * (1 / 280.0 - 1 / 360.0), 900 * 30 / 280.0}};
   auto model = ThesisTouchModel::solve(screen, touches[0], touches[1]);
-  return {"drawn", "2026-11-22T00:00:00Z", image, screen, border, touches, model.value()};
+  return {"drawn", "2026-11-22T00:00:00Z", image, screen, border, ThesisCalibration{touches, model.value()}};
 }
 
 class ActivePipelineTest : public testing::Test {

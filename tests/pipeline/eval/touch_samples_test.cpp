@@ -103,15 +103,15 @@ TEST_P(TouchSamples, CalibrateBothRigsWithTwoTouches) {
   for (const char* name : {"rig1", "rig2"}) {
     const auto rig = open_rig_directory(GetParam() / name);
     ASSERT_TRUE(rig.ok()) << rig.error().message;
-    const auto calibration = calibrate_from_recording(*rig, {}, "2026-01-01T00:00:00Z");
+    const auto calibration = calibrate_from_recording(*rig, "thesis", {}, "2026-01-01T00:00:00Z");
     ASSERT_TRUE(calibration.ok()) << calibration.error().message;
     // The pictures are mirrored: right is the user's left.
-    EXPECT_LT(calibration->model.horizontal_scale_px(), 0);
+    EXPECT_LT(std::get<ThesisCalibration>(calibration->solved).model.horizontal_scale_px(), 0);
     const Folder folder;
     ASSERT_TRUE(write_calibration(folder / "rig.toml", *calibration).ok());
     const auto read = read_calibration(folder / "rig.toml");
     ASSERT_TRUE(read.ok()) << read.error().message;
-    EXPECT_DOUBLE_EQ(read->model.camera_below_top_mm(), calibration->model.camera_below_top_mm());
+    EXPECT_DOUBLE_EQ(read->camera_below_top_mm(), calibration->camera_below_top_mm());
   }
 }
 
@@ -131,12 +131,12 @@ TEST_P(TouchSamples, GiveTheScreensOwnEdgeWithATriangle) {
   ASSERT_TRUE(write_png(folder / "rig/triangle.png", *picture).ok());
   const auto rig = open_rig_directory(folder / "rig");
   ASSERT_TRUE(rig.ok()) << rig.error().message;
-  const auto calibration = calibrate_from_recording(*rig, {}, "2026-01-01T00:00:00Z");
+  const auto calibration = calibrate_from_recording(*rig, "thesis", {}, "2026-01-01T00:00:00Z");
   ASSERT_TRUE(calibration.ok()) << calibration.error().message;
   EXPECT_NEAR(calibration->border.v_at(100), edge.v_at(100), 2);
   EXPECT_NEAR(calibration->border.v_at(1200), edge.v_at(1200), 2);
   // The camera sits near the screen's top edge.
-  EXPECT_NEAR(calibration->model.camera_below_top_mm(), 0, 60);
+  EXPECT_NEAR(calibration->camera_below_top_mm(), 0, 60);
 }
 
 TEST_P(TouchSamples, HoldASlidingFingerThatIsFound) {
@@ -230,6 +230,7 @@ TEST_F(WrongEvaluation, NamesTheMissingCalibrationTouch) {
 }
 
 TEST_F(WrongEvaluation, WantsTwoCalibrationTouches) {
+  options_.model = "thesis";
   options_.calibration = {1, 2, 4};
   EXPECT_THAT(fault(options_), HasSubstr("calibrated with 2 touches, not 3"));
 }
@@ -243,6 +244,7 @@ TEST_F(WrongEvaluation, NamesTheCalibrationPictureWithoutAFinger) {
   const Folder folder;
   fs::copy(options_.rig, folder / "rig", fs::copy_options::recursive);
   fs::copy(folder / "rig/background.jpg", folder / "rig/calibration/02.jpg", fs::copy_options::overwrite_existing);
+  options_.model = "thesis";
   options_.rig = folder / "rig";
   EXPECT_THAT(fault(options_), HasSubstr("calibration/02.jpg: no finger crosses"));
 }

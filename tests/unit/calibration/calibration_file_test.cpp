@@ -38,8 +38,7 @@ class CalibrationFile : public testing::Test {
             {1280, 720},
             rig.screen,
             {512.25, -0.0175},
-            {first, second},
-            ThesisTouchModel::solve(rig.screen, first, second).value()};
+            ThesisCalibration{{first, second}, ThesisTouchModel::solve(rig.screen, first, second).value()}};
   }
 
   [[nodiscard]] std::string text() const {
@@ -82,9 +81,11 @@ TEST_F(CalibrationFile, GivesBackAllThatWasWritten) {
   EXPECT_EQ(read->screen.height_px, 1024);
   EXPECT_DOUBLE_EQ(read->border.v0_px, 512.25);
   EXPECT_DOUBLE_EQ(read->border.slope, -0.0175);
-  EXPECT_DOUBLE_EQ(read->touches[1].length_px, written.touches[1].length_px);
-  EXPECT_DOUBLE_EQ(read->touches[1].column_px, written.touches[1].column_px);
-  EXPECT_DOUBLE_EQ(read->model.camera_below_top_mm(), written.model.camera_below_top_mm());
+  const auto& touch = std::get<ThesisCalibration>(read->solved).touches[1];
+  const auto& written_touch = std::get<ThesisCalibration>(written.solved).touches[1];
+  EXPECT_DOUBLE_EQ(touch.length_px, written_touch.length_px);
+  EXPECT_DOUBLE_EQ(touch.column_px, written_touch.column_px);
+  EXPECT_DOUBLE_EQ(read->camera_below_top_mm(), written.camera_below_top_mm());
 }
 
 TEST_F(CalibrationFile, LeavesNothingBesideIt) {
@@ -137,7 +138,7 @@ TEST_F(CalibrationFile, TellsAllFaultsAtOnceWithTheirLines) {
 }
 
 TEST_F(CalibrationFile, IsRefusedIfItIsNewerThanTheProgram) {
-  write_with("version = 1", "version = 2");
+  write_with("version = 1", "version = 3");
   EXPECT_THAT(fault(), HasSubstr("newer than this program"));
 }
 
