@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// How the border strip looks when nobody reaches across it, and what differs from that in a frame.
+//
+// Cameras change exposure and white balance from frame to frame, screens light up the bezel: every rail of a frame is
+// first brought to the background's level by one gain a channel, taken from the cells that look like background.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <opencv2/core/mat.hpp>
+#include <vector>
+
+#include "finger/border_strip.hpp"
+
+namespace telehug {
+
+class BackgroundStrip {
+ public:
+  // `empty` is what the strip looks like with nobody there.
+  BackgroundStrip(const BorderStrip::Layout& layout, const BorderStrip& empty);
+
+  // How far each cell is from the background, in standard deviations of the noise, cut off at `far`; rails by columns.
+  // Valid until the next call. Allocates nothing.
+  static constexpr float far = 6;
+  const std::vector<float>& distance(const BorderStrip& strip);
+
+  // The share of cells that looked like background in the last distance(): near 0 when the light was switched or the
+  // camera was moved.
+  [[nodiscard]] double unchanged_share() const noexcept { return unchanged_share_; }
+
+  // Learns from the last strip given to distance(): cells that look like background soon, others (a cup that was put
+  // there) slowly, those under fingers - `is_finger`, one flag a column, or all if the scene is disturbed - hardly.
+  void adapt(const BorderStrip& strip, const std::vector<bool>& is_finger);
+
+  // The strip as a picture (CV_8UC3, columns by rails) to keep it in a file, and back.
+  [[nodiscard]] cv::Mat picture() const;
+
+ private:
+  void set_background(int rail);
+  void level(const BorderStrip& strip, int rail);
+
+  int columns_;
+  BorderStrip background_;
+  std::vector<float> inverse_variance_;  // of each value
+  std::vector<float> distance_;
+  std::array<std::array<float, BorderStrip::channels>, BorderStrip::rails> gain_{};  // background = gain * frame
+  std::vector<float> scratch_;
+  double unchanged_share_ = 1;
+};
+
+}  // namespace telehug
