@@ -11,7 +11,7 @@ namespace telehug {
 namespace {
 
 // So many columns must lie on the line, on both halves of the picture, for it to be the border.
-constexpr std::size_t least_columns = 8;
+constexpr std::size_t least_columns = border_columns / 2;
 constexpr std::size_t least_columns_a_half = 3;
 constexpr double on_line_px = 0.7;
 
