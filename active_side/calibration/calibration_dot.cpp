@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 #include <stdexcept>
 #include <vector>
 
@@ -33,23 +34,21 @@ class DotSearch {
       : white_(white), image_(image), border_(border), diameter_mm_(diameter_mm), scale_(picture_scale(image)) {
     const RigPriors priors = usual_rigs({400, 300, 0, 0}, image);
     parameters_ = priors.mean;
-    parameters_[RigParameter::roll_deg] = std::atan(border.slope) * 180 / 3.141592653589793;
+    parameters_[RigParameter::roll_deg] = std::atan(border.slope) * 180 / std::numbers::pi;
   }
 
-  // The place where the outline lies best on steps from white to black.
-  [[nodiscard]] Guess best() const {
+  // The places where the outline lies well on steps from white to black, the best first.
+  [[nodiscard]] std::vector<Guess> guesses() const {
     std::vector<Guess> guesses;
     for (const double z0_mm : {24.0, 30.0, 37.0, 46.0, 57.0, 71.0, 88.0}) {
       Guess best_here;
       scan(z0_mm, best_here);
       if (best_here.score > 0) guesses.push_back(best_here);
     }
-    Guess best;
-    for (Guess& guess : guesses) {
+    for (Guess& guess : guesses)
       climb(guess);
-      if (guess.score > best.score) best = guess;
-    }
-    return best;
+    std::sort(guesses.begin(), guesses.end(), [](const Guess& a, const Guess& b) { return a.score > b.score; });
+    return guesses;
   }
 
   [[nodiscard]] RigCamera camera(const Guess& guess) const {
@@ -67,12 +66,10 @@ class DotSearch {
     double sum = 0, weights = 0;
     for (const DotOutline::Point& point : outline->points) {
       if (!DotOutline::is_visible(point)) continue;
-      const auto at = [&](double d) {
-        return white_.at({point.image.u_px + d * point.normal_u, point.image.v_px + d * point.normal_v});
-      };
       // At the ends nothing hides the dot.
       const double weight = 1 + 1.5 * std::abs(point.cosine * point.cosine * point.cosine);
-      sum += weight * std::clamp((at(-reach) - at(reach)) / white_.contrast(), -0.3F, 0.6F);
+      sum += weight * std::clamp((white_.at(point.along(-reach)) - white_.at(point.along(reach))) / white_.contrast(),
+                                 -0.3F, 0.6F);
       weights += weight;
     }
     return sum / weights;
@@ -91,21 +88,24 @@ class DotSearch {
     }
   }
 
+  // Directions of place, width and height; the last two move the outline's upper edge alone.
+  static constexpr std::array<std::array<double, 4>, 10> climbs{{{1, 0, 0, 0},
+                                                                 {-1, 0, 0, 0},
+                                                                 {0, 1, 0, 0},
+                                                                 {0, -1, 0, 0},
+                                                                 {0, 0, 1, 0},
+                                                                 {0, 0, -1, 0},
+                                                                 {0, 0, 0, 1},
+                                                                 {0, 0, 0, -1},
+                                                                 {0, 1, 0, 1},
+                                                                 {0, -1, 0, -1}}};
+
   // Uphill in small and smaller steps of place, width and height.
   void climb(Guess& guess) const {
     for (double step = 2; step > 0.2; step /= 2) {
       for (bool better = true; better;) {
         better = false;
-        for (const auto& [du, dv, dz, dp] : std::initializer_list<std::array<double, 4>>{{1, 0, 0, 0},
-                                                                                         {-1, 0, 0, 0},
-                                                                                         {0, 1, 0, 0},
-                                                                                         {0, -1, 0, 0},
-                                                                                         {0, 0, 1, 0},
-                                                                                         {0, 0, -1, 0},
-                                                                                         {0, 0, 0, 1},
-                                                                                         {0, 0, 0, -1},
-                                                                                         {0, 1, 0, 1},
-                                                                                         {0, -1, 0, -1}}) {
+        for (const auto& [du, dv, dz, dp] : climbs) {
           Guess next = guess;
           next.centre.u_px += du * step * scale_;
           next.centre.v_px += dv * step * scale_;
@@ -139,9 +139,10 @@ std::optional<CalibrationDot> find_calibration_dot(const cv::Mat& bgr, const Bor
   const Whiteness white(bgr, {0, top, bgr.cols, bgr.rows - top});
   if (white.contrast() < least_contrast) return std::nullopt;
   const DotSearch search(white, image, border, diameter_mm);
-  const Guess guess = search.best();
-  if (guess.score <= 0) return std::nullopt;
-  return refine_calibration_dot(bgr, search.camera(guess), guess.centre, diameter_mm);
+  for (const Guess& guess : search.guesses()) {
+    if (const auto dot = fit_dot_edges(bgr, search.camera(guess), guess.centre, diameter_mm)) return dot;
+  }
+  return std::nullopt;
 }
 
 std::optional<CalibrationDot> refine_calibration_dot(const cv::Mat& bgr, const RigCamera& camera,

@@ -15,10 +15,10 @@ namespace telehug {
 namespace {
 
 // Lengths in pixels are for pictures 1280 px wide.
-constexpr double search_px = 2.5;    // an edge is looked for so far to both sides of the outline
-constexpr double slope_px = 0.75;    // half the length over which the slope is taken
-constexpr double step_px = 0.25;     // of the search
-constexpr double margin_px = 14;     // of the looked-at part around the outline
+constexpr double search_px = 2.5;       // an edge is looked for so far to both sides of the outline
+constexpr double slope_px = 0.75;       // half the length over which the slope is taken
+constexpr double step_px = 0.25;        // of the search
+constexpr double margin_px = 14;        // of the looked-at part around the outline
 constexpr double camera_blur_px = 0.9;  // standard deviation, lens and electronics
 // Prior standard deviation of how much wider than drawn the dot's edge is.
 constexpr double spread_sd_px = 0.5;
@@ -26,7 +26,11 @@ constexpr double spread_sd_px = 0.5;
 constexpr double outlier_px = 1.0;
 // A step of less than this share of the contrast is no edge of the dot.
 constexpr double least_step = 0.2;
-constexpr double least_score = 0.6;
+constexpr double least_score = 0.75;
+// Across most of the visible outline the picture falls by this many grey levels at least: many times the noise, and
+// more than most mirror images in a black screen do.
+constexpr float least_fall = 20;
+constexpr double fall_px = 1.5;  // to both sides of the outline
 // What systematic errors leave: mirror images below the dot, the shape of the outline.
 constexpr double floor_u_px = 0.1;
 constexpr double floor_v_px = 0.2;
@@ -130,48 +134,71 @@ Fit fit_shift(const std::vector<Measured>& edges, double scale) {
   return fit;
 }
 
+// A fingertip's rounded lower end looks like the dot's arc, but it has no ends.
+bool is_clear(const Whiteness& white, const DotOutline& outline, double scale) {
+  constexpr double end = 0.2;  // sine, towards the camera, from which on an arc is no end
+  struct Count {
+    int visible = 0;
+    int clear = 0;
+    [[nodiscard]] double share() const { return visible > 0 ? static_cast<double>(clear) / visible : 0; }
+  };
+  Count all, left_end, right_end;
+  for (const DotOutline::Point& point : outline.points) {
+    if (!DotOutline::is_visible(point)) continue;
+    const bool falls = white.at(point.along(-fall_px * scale)) - white.at(point.along(fall_px * scale)) >= least_fall;
+    Count& ends = point.cosine < 0 ? left_end : right_end;
+    for (Count* count : {&all, &ends}) {
+      if (count == &ends && point.sine < -end) continue;
+      ++count->visible;
+      if (falls) ++count->clear;
+    }
+  }
+  return all.share() >= 0.75 && left_end.share() >= 0.5 && right_end.share() >= 0.5;
+}
+
+// Of every visible point of the outline whose surroundings are in the picture and show an edge.
+std::vector<Measured> measure(const Whiteness& white, const DotOutline& outline, ImageSize image) {
+  const double scale = picture_scale(image);
+  const cv::Rect part = around(outline, margin_px * scale);
+  const cv::Mat drawn = draw(outline, part, std::hypot(camera_blur_px * scale, Whiteness::blur_px(image)));
+  std::vector<Measured> edges;
+  for (const DotOutline::Point& point : outline.points) {
+    if (!DotOutline::is_visible(point)) continue;
+    if (!white.contains(point.along((search_px + slope_px) * scale))) continue;
+    const auto seen = steepest_fall([&](double d) { return white.at(point.along(d)); }, scale);
+    const auto model = steepest_fall(
+        [&](double d) {
+          const ImagePoint at = point.along(d);
+          return value_at(drawn, at.u_px - part.x, at.v_px - part.y);
+        },
+        scale);
+    if (!seen || !model) continue;
+    const double height = seen->height / std::max(1.0F, white.contrast());
+    if (height < least_step * model->height) continue;
+    edges.push_back({&point, seen->offset_px - model->offset_px, std::min(1.0, height)});
+  }
+  return edges;
+}
+
 }  // namespace
 
 std::optional<CalibrationDot> fit_dot_edges(const cv::Mat& bgr, const RigCamera& camera, const ImagePoint& near,
                                             double diameter_mm) {
   const ImageSize image{bgr.cols, bgr.rows};
   const double scale = picture_scale(image);
-  const double blur_px = std::hypot(camera_blur_px * scale, Whiteness::blur_px(image));
-  const auto first = dot_outline(camera, near, diameter_mm);
-  if (!first) return std::nullopt;
-  const Whiteness white(bgr, around(*first, margin_px * scale));
+  auto outline = dot_outline(camera, near, diameter_mm);
+  if (!outline) return std::nullopt;
+  const Whiteness white(bgr, around(*outline, margin_px * scale));
   if (white.part().empty()) return std::nullopt;
+  const auto expected =
+      static_cast<double>(std::count_if(outline->points.begin(), outline->points.end(), DotOutline::is_visible));
 
   CalibrationDot dot{near};
   for (int round = 0; round < rounds; ++round) {
-    const auto outline = dot_outline(camera, dot.centre, diameter_mm);
-    if (!outline) return std::nullopt;
-    const cv::Rect part = around(*outline, margin_px * scale);
-    const cv::Mat drawn = draw(*outline, part, blur_px);
-    std::vector<Measured> edges;
-    double expected = 0;
-    for (const DotOutline::Point& point : outline->points) {
-      if (!DotOutline::is_visible(point)) continue;
-      expected += 1;
-      const auto along = [&](double d) {
-        return ImagePoint{point.image.u_px + d * point.normal_u, point.image.v_px + d * point.normal_v};
-      };
-      if (!white.contains(along((search_px + slope_px) * scale))) continue;
-      const auto seen = steepest_fall([&](double d) { return white.at(along(d)); }, scale);
-      const auto model = steepest_fall(
-          [&](double d) {
-            const ImagePoint at = along(d);
-            return value_at(drawn, at.u_px - part.x, at.v_px - part.y);
-          },
-          scale);
-      if (!seen || !model) continue;
-      const double height = seen->height / std::max(1.0F, white.contrast());
-      if (height < least_step * model->height) continue;
-      edges.push_back({&point, seen->offset_px - model->offset_px, std::min(1.0, height)});
-    }
-    if (expected == 0 || static_cast<double>(edges.size()) < least_score * expected) return std::nullopt;
+    const std::vector<Measured> edges = measure(white, *outline, image);
+    if (static_cast<double>(edges.size()) < least_score * expected) return std::nullopt;
     const Fit fit = fit_shift(edges, scale);
-    // One step at most as long as the edges are looked for.
+    // One step is at most as long as the edges are looked for.
     const double length = std::hypot(fit.shift[0], fit.shift[1]);
     const double part_of_it = std::min(1.0, search_px * scale / std::max(length, 1e-9));
     dot.centre.u_px += part_of_it * fit.shift[0];
@@ -179,9 +206,11 @@ std::optional<CalibrationDot> fit_dot_edges(const cv::Mat& bgr, const RigCamera&
     dot.sigma_u_px = std::hypot(std::sqrt(fit.covariance(0, 0)), floor_u_px * scale);
     dot.sigma_v_px = std::hypot(std::sqrt(fit.covariance(1, 1)), floor_v_px * scale);
     dot.score = fit.inliers / expected;
+    outline = dot_outline(camera, dot.centre, diameter_mm);
+    if (!outline) return std::nullopt;
     if (length < 0.01 * scale) break;
   }
-  if (dot.score < least_score) return std::nullopt;
+  if (dot.score < least_score || !is_clear(white, *outline, scale)) return std::nullopt;
   return dot;
 }
 

@@ -15,8 +15,8 @@ std::optional<DotOutline> dot_outline(const RigCamera& camera, const ImagePoint&
     DotOutline::Point& point = outline.points[i];
     point.cosine = std::cos(t);
     point.sine = std::sin(t);
-    const auto image = camera.project(ScreenPoint{on_screen->x_mm + diameter_mm / 2 * point.cosine,
-                                                  on_screen->y_mm + diameter_mm / 2 * point.sine});
+    const auto image = camera.project(
+        ScreenPoint{on_screen->x_mm + diameter_mm / 2 * point.cosine, on_screen->y_mm + diameter_mm / 2 * point.sine});
     if (!image) return std::nullopt;
     point.image = *image;
   }

@@ -20,6 +20,11 @@ struct DotOutline {
     double normal_v = 0;
     double cosine = 0;  // of the direction from the circle's centre, on the screen
     double sine = 0;    // > 0: towards the screen's bottom
+
+    // The place so far outside the outline, across it.
+    [[nodiscard]] ImagePoint along(double outwards_px) const noexcept {
+      return {image.u_px + outwards_px * normal_u, image.v_px + outwards_px * normal_v};
+    }
   };
   std::array<Point, count> points;
 

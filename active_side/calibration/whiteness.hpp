@@ -9,7 +9,9 @@
 namespace telehug {
 
 // Lengths in px are meant for pictures 1280 px wide; for others they are multiplied by this.
-[[nodiscard]] constexpr double picture_scale(ImageSize image) noexcept { return image.width_px / 1280.0; }
+[[nodiscard]] constexpr double picture_scale(ImageSize image) noexcept {
+  return image.width_px / 1280.0;
+}
 
 // How white a part of a picture is: the least of the three colours minus half their difference, so that white light
 // counts and lit skin counts little.
