@@ -44,6 +44,7 @@ struct TouchThreadState {
   bool recording_over = false;
   std::string camera_problem;
   std::shared_ptr<FaceWorker> face;
+  const char* model = "";  // of the calibration in use; empty: there is none
   PeerState peer;
   NobodyTouched nobody;
   std::optional<SentTouch> last_touch;

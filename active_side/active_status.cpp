@@ -119,7 +119,7 @@ Json ActiveDaemon::status() const {
                  {"camera", {{"name", camera_name_}, {"open", state.camera_open}, {"why", open_why}}},
                  {"screen", {{"name", face.screen}, {"open", face.open}}},
                  {"face", {{"found", face.map.version != 0}, {"map_version", face.map.version}}},
-                 {"detector", {{"name", "thesis"}, {"model", "thesis"}}},
+                 {"detector", {{"name", "thesis"}, {"model", state.model}}},
                  {"counters", counters},
                  {"latency_ms", metrics_.latencies_json()}};
   if (face.map.version != 0) answer["face"]["rows"] = face.map.shape.rows;

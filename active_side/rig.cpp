@@ -36,6 +36,12 @@ Result<std::unique_ptr<Rig>> make_rig(const ActiveConfig& config, const SessionI
         "{:.0f} x {:.0f} mm; calibrate again or correct the configuration",
         path.string(), screen.width_mm, screen.height_mm, config.rig.screen.width_mm, config.rig.screen.height_mm)};
   }
+  if (config.touch.model == "thesis" && !std::holds_alternative<ThesisCalibration>(calibration->solved)) {
+    return Error{
+        fmt::format("{} holds the default model, but [touch] of the configuration wants the thesis': "
+                    "calibrate again or correct the configuration",
+                    path.string())};
+  }
   auto finder = make_haar_face_finder();
   if (!finder) return finder.error();
 
@@ -50,7 +56,8 @@ Result<std::unique_ptr<Rig>> make_rig(const ActiveConfig& config, const SessionI
   auto face = std::make_shared<FaceWorker>(std::make_unique<PictureGrabber>(grabber, clock), *std::move(finder), step,
                                            config.body_map.rate_hz, clock, metrics);
   try {
-    return std::make_unique<Rig>(Rig{ActivePipeline(*calibration, options, session, clock, metrics), std::move(face)});
+    return std::make_unique<Rig>(Rig{ActivePipeline(*calibration, options, session, clock, metrics), std::move(face),
+                                     calibration->model_name()});
   } catch (const std::invalid_argument& problem) {
     return Error{fmt::format("{}: {}; calibrate again", path.string(), problem.what())};
   }

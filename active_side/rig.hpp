@@ -14,6 +14,7 @@ namespace telehug {
 struct Rig {
   ActivePipeline pipeline;
   std::shared_ptr<FaceWorker> face;
+  const char* model;  // of the calibration: "thesis" or "default"
 };
 
 // The error says what is wrong with the calibration, with the configuration for it, or with the face finder, and what

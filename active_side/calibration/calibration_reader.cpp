@@ -198,7 +198,7 @@ PictureOrientation CalibrationReader::orientation(const Section& from) {
   if (from.table == nullptr) return found;
   const auto flag = [&](const char* key) {
     const toml::node* node = from.table->get(key);
-    const auto value = node != nullptr ? node->value<bool>() : std::nullopt;
+    const auto value = node != nullptr && node->is_boolean() ? node->value<bool>() : std::nullopt;
     if (!value) fault(line_of(node, from.line), fmt::format("{} must be true or false", key));
     return value.value_or(false);
   };

@@ -161,6 +161,14 @@ std::vector<LevelLine> find_level_lines(const cv::Mat& bgr) {
   return merge_by_level(find_line_segments(bgr));
 }
 
+std::optional<PointObservation> triangle_mark(const ScreenBorder& border, const ScreenSize& screen) {
+  // Two lines some pixels wide meet there, and more steeply in u than in v.
+  constexpr double sigma_u_px = 1.5;
+  constexpr double sigma_v_px = 4;
+  if (!border.vertex) return std::nullopt;
+  return PointObservation{{0.5 * screen.width_mm, screen.height_mm}, *border.vertex, sigma_u_px, sigma_v_px};
+}
+
 Result<ScreenBorder> find_screen_border(const cv::Mat& bgr, BorderChoice choice) {
   if (bgr.empty() || bgr.type() != CV_8UC3) return Error{"there is no colour picture in which to find the border"};
   const auto segments = find_line_segments(bgr);

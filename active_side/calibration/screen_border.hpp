@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "calibration/border_line.hpp"
+#include "calibration/rig_observations.hpp"
 #include "common/result.hpp"
 #include "common/units.hpp"
 
@@ -35,6 +36,9 @@ struct ScreenBorder {
   double length_px = 0;
   std::optional<ImagePoint> vertex;  // of the triangle, if it picked the line
 };
+
+// The triangle's vertex as a point of the screen: in the middle of its bottom edge. Nothing without a triangle.
+std::optional<PointObservation> triangle_mark(const ScreenBorder& border, const ScreenSize& screen);
 
 // `bgr` is CV_8UC3. The error says what was not found and what to do.
 Result<ScreenBorder> find_screen_border(const cv::Mat& bgr, BorderChoice choice);

@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
 #include <CLI/CLI.hpp>
+
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <filesystem>
 #include <memory>
 
 #include "calibration/calibration_file.hpp"
+#include "calibration/calibration_policy.hpp"
 #include "capture/rig_directory.hpp"
 #include "capture/virtual_rig/export_rig.hpp"
 #include "commands/calibrate_by_hand.hpp"
@@ -21,7 +25,7 @@ struct Options {
   ConfigOptions config;
   std::string source;
   std::string out;
-  std::string model = "default";
+  std::string model;  // empty: as configured
   std::vector<int> frames;
   double width_mm = 0;
   double height_mm = 0;
@@ -68,7 +72,8 @@ Result<Calibration> from_recording(const std::filesystem::path& folder, const st
 Result<Calibration> from_virtual_rig(const VirtualRigSettings& settings, const std::string& model,
                                      const std::vector<int>& frames) {
   const ScratchFolder scratch;
-  const int all = model == "thesis" ? 2 : static_cast<int>(calibration_points(settings).size());
+  // The default model's: with those far to the left and right. Rendering more takes its time and gains little.
+  const int all = model == "thesis" ? 2 : 6;
   const int touches = frames.empty() ? all : *std::max_element(frames.begin(), frames.end());
   const Status exported = export_rig_directory(
       settings, scratch.path(), {.calibration_touches = touches, .sequence_frames = 0, .single_frames = 0});
@@ -79,19 +84,21 @@ Result<Calibration> from_virtual_rig(const VirtualRigSettings& settings, const s
 }
 
 Result<Calibration> calibrate(const Options& options, const ActiveConfig& config) {
+  const std::string model = options.model.empty() ? config.touch.model : options.model;
   const std::string spec = options.source.empty() ? config.camera.source : options.source;
   const auto source = parse_camera_source(spec);
   if (!source) return source.error();
   const CaptureSettings capture = capture_settings(config);
   switch (source->kind) {
     case CameraSourceKind::recording:
-      return from_recording(source->folder.substr(0, source->folder.find('?')), options.model, options.frames);
+      return from_recording(source->folder.substr(0, source->folder.find('?')), model, options.frames);
     case CameraSourceKind::virtual_rig:
-      return from_virtual_rig(capture.virtual_rig, options.model, options.frames);
+      return from_virtual_rig(capture.virtual_rig, model, options.frames);
     case CameraSourceKind::webcam:
       break;
   }
   HandCalibration by_hand;
+  by_hand.model = model;
   by_hand.screen = config.rig.screen;
   if (options.width_mm > 0) by_hand.screen.width_mm = options.width_mm;
   if (options.height_mm > 0) by_hand.screen.height_mm = options.height_mm;
@@ -106,11 +113,37 @@ Result<Calibration> calibrate(const Options& options, const ActiveConfig& config
   return calibrate_by_hand(**camera, by_hand, utc_now());
 }
 
+double largest_error_mm(const RigSolution& solution) {
+  double largest = 0;
+  for (std::size_t i = 0; i < solution.touches.size(); ++i) {
+    const ScreenPoint& error = solution.touches[i].error_mm;
+    if (solution.bad_touch != i) largest = std::max(largest, std::hypot(error.x_mm, error.y_mm));
+  }
+  return largest;
+}
+
+// Prints what could be better. The error says why the calibration is not worth keeping.
+Status judge(const Calibration& calibration) {
+  const auto* rig = std::get_if<RigCalibration>(&calibration.solved);
+  if (rig == nullptr) return Done{};
+  std::vector<ScreenPoint> dots;
+  for (const PointObservation& touch : rig->observations.touches)
+    dots.push_back(touch.screen);
+  const CalibrationVerdict verdict = judge_calibration(*rig, dots);
+  for (const std::string& advice : verdict.advice)
+    fmt::print("{}\n", advice);
+  fmt::print("picture: {}; {} touches agree within {:.1f} mm\n", rig->solution.model.camera.orientation().name(),
+             dots.size(), largest_error_mm(rig->solution));
+  if (verdict.good()) return Done{};
+  return Error{fmt::format("the calibration is not saved: {}", fmt::join(verdict.faults, "; "))};
+}
+
 ExitCode run(const Options& options) {
   const auto config = load_config(options.config);
   if (!config) return fail(ExitCode::config, config.error());
   const auto calibration = calibrate(options, *config);
   if (!calibration) return fail(ExitCode::device, calibration.error());
+  if (const Status worth = judge(*calibration); !worth) return fail(ExitCode::device, worth.error());
   const std::filesystem::path out = options.out.empty() ? rig_file(config->rig) : std::filesystem::path(options.out);
   if (const Status written = write_calibration(out, *calibration); !written) {
     return fail(ExitCode::device, written.error());
@@ -126,16 +159,16 @@ ExitCode run(const Options& options) {
 
 void add_calibrate(CLI::App& app, ExitCode& result) {
   auto options = std::make_shared<Options>();
-  CLI::App* command =
-      app.add_subcommand("calibrate", "Learn where the camera stands, from two touches of known points");
+  CLI::App* command = app.add_subcommand("calibrate", "Learn where the camera stands, from touches of known points");
   add_config_options(*command, options->config);
   command->add_option("--source", options->source, "webcam (asks for the touches), replay:DIR or virtual");
   command->add_option("--out", options->out, "The calibration file; else where `run` looks for it");
   command->add_option("--frames", options->frames, "replay: and virtual: which calibration pictures, e.g. 1,2")
       ->delimiter(',');
-  command->add_option("--model", options->model, "Which model places fingers on the screen; thesis uses two touches")
-      ->check(CLI::IsMember({"thesis", "default"}))
-      ->capture_default_str();
+  command
+      ->add_option("--model", options->model,
+                   "Which model places fingers on the screen; else the configured one. thesis uses two touches")
+      ->check(CLI::IsMember({"thesis", "default"}));
   command->add_option("--width-mm", options->width_mm, "webcam: width of the visible screen");
   command->add_option("--height-mm", options->height_mm, "webcam: height of the visible screen");
   command->add_option("--point", options->points, "webcam: a point to touch, in mm from the screen's top left: X,Y")

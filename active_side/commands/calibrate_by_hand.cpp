@@ -9,7 +9,9 @@
 #include <cstdio>
 #include <iostream>
 #include <opencv2/imgproc.hpp>
+#include <utility>
 
+#include "calibration/border_choice.hpp"
 #include "calibration/screen_border.hpp"
 #include "finger/thesis_detector.hpp"
 #include "pictures/picture_file.hpp"
@@ -90,14 +92,22 @@ double median(std::vector<double> values) {
   return *middle;
 }
 
-Result<MeasuredTouch> measure(FrameSource& camera, const BorderLine& border, const ScreenPoint& point) {
+// One touch as both models see it.
+struct HandTouch {
+  MeasuredTouch thesis;
+  ImagePoint tip;
+};
+
+Result<HandTouch> measure(FrameSource& camera, const BorderLine& border, const ScreenPoint& point) {
   ThesisDetector detector(border, camera.size());
   std::vector<double> lengths;
   std::vector<double> columns;
+  std::vector<double> rows;
   const Status read = read_frames(camera, frames_measured, [&](const cv::Mat& bgr) {
     for (const Finger& finger : detector.detect(bgr)) {
       lengths.push_back(finger.length_px);
-      columns.push_back(column_from_centre_px(finger.tip.u_px, camera.size()));
+      columns.push_back(finger.tip.u_px);
+      rows.push_back(finger.tip.v_px);
     }
   });
   if (!read) return read.error();
@@ -107,7 +117,8 @@ Result<MeasuredTouch> measure(FrameSource& camera, const BorderLine& border, con
                     "other fingers folded away, and begin again",
                     lengths.size(), frames_measured)};
   }
-  return MeasuredTouch{point, median(lengths), median(columns)};
+  const ImagePoint tip{median(columns), median(rows)};
+  return HandTouch{{point, median(lengths), column_from_centre_px(tip.u_px, camera.size())}, tip};
 }
 
 }  // namespace
@@ -123,7 +134,7 @@ Result<std::vector<ScreenPoint>> parse_points(const std::vector<std::string>& te
     }
     points.push_back(point);
   }
-  if (!points.empty() && points.size() != 2) return Error{"give two --point, or none"};
+  if (points.size() == 1) return Error{"give two --point or more, or none"};
   return points;
 }
 
@@ -132,12 +143,22 @@ std::vector<ScreenPoint> thesis_points(const ScreenSize& screen) {
   return {{middle, screen.height_mm * 100 / 300}, {middle + 30, screen.height_mm * 220 / 300}};
 }
 
+std::vector<ScreenPoint> default_points(const ScreenSize& screen) {
+  std::vector<ScreenPoint> points;
+  for (const auto& [x, y] : {std::pair{0.5, 0.66}, {0.58, 0.86}, {0.22, 0.75}, {0.78, 0.75}, {0.34, 0.93}})
+    points.push_back({x * screen.width_mm, y * screen.height_mm});
+  return points;
+}
+
 Result<Calibration> calibrate_by_hand(FrameSource& camera, const HandCalibration& wanted, const std::string& date) {
   const ScreenSize& screen = wanted.screen;
+  const bool thesis = wanted.model == "thesis";
   if (!(screen.width_mm > 0) || !(screen.height_mm > 0)) {
     return Error{"say how large the visible screen is: --width-mm and --height-mm, or [rig] in the configuration"};
   }
-  const std::vector<ScreenPoint> points = wanted.points.empty() ? thesis_points(screen) : wanted.points;
+  std::vector<ScreenPoint> points = wanted.points;
+  if (points.empty()) points = thesis ? thesis_points(screen) : default_points(screen);
+  if (thesis && points.size() != 2) return Error{"the thesis' model is calibrated with two touches: give two --point"};
   if (const Status opened = camera.open(); !opened) return opened.error();
   if (const Status written = write_png(triangle_file, triangle_picture(screen)); !written) return written.error();
   if (const Status written = write_png(dots_file, dots_picture(screen, points)); !written) return written.error();
@@ -154,19 +175,30 @@ Result<Calibration> calibrate_by_hand(FrameSource& camera, const HandCalibration
   const auto border = find_screen_border(picture, BorderChoice::triangle);
   if (!border) return border.error();
 
-  std::array<MeasuredTouch, 2> touches;
-  for (std::size_t i = 0; i < touches.size(); ++i) {
+  std::vector<HandTouch> touches;
+  for (std::size_t i = 0; i < points.size(); ++i) {
     const std::string what =
         i == 0 ? fmt::format("Show {} on the whole screen and lay a finger on dot 1; leave it there.", dots_file)
-               : std::string("Now lay it on dot 2; leave it there.");
+               : fmt::format("Now lay it on dot {}; leave it there.", i + 1);
     if (auto ready = ask(what); !ready) return ready.error();
     auto touch = measure(camera, border->line, points[i]);
     if (!touch) return Error{fmt::format("touch {}: {}", i + 1, touch.error().message)};
-    touches[i] = *touch;
+    touches.push_back(*touch);
   }
-  const auto model = ThesisTouchModel::solve(screen, touches[0], touches[1]);
-  if (!model) return model.error();
-  return Calibration{camera.name(), date, camera.size(), screen, border->line, ThesisCalibration{touches, *model}};
+  if (thesis) {
+    const auto model = ThesisTouchModel::solve(screen, touches[0].thesis, touches[1].thesis);
+    if (!model) return model.error();
+    return Calibration{camera.name(), date,         camera.size(),
+                       screen,        border->line, ThesisCalibration{{touches[0].thesis, touches[1].thesis}, *model}};
+  }
+  RigObservations seen{screen, camera.size(), {}, {}, {}};
+  for (std::size_t i = 0; i < points.size(); ++i)
+    seen.touches.push_back({points[i], touches[i].tip, thesis_tip_sigma_px, thesis_tip_sigma_px});
+  if (const auto mark = triangle_mark(*border, screen)) seen.marks.push_back(*mark);
+  auto solved = solve_with_border(seen, find_border_candidates(picture, border->line));
+  if (!solved) return solved.error();
+  const BorderLine edge = border_line(solved->calibration.solution.model.camera, screen);
+  return Calibration{camera.name(), date, camera.size(), screen, edge, std::move(solved->calibration)};
 }
 
 }  // namespace telehug

@@ -12,7 +12,8 @@ namespace telehug {
 
 struct HandCalibration {
   ScreenSize screen;                // mm; pixels, if known
-  std::vector<ScreenPoint> points;  // two, or none: the thesis'
+  std::string model = "default";    // or "thesis"
+  std::vector<ScreenPoint> points;  // two (default: or more), or none: those below
 };
 
 // "X,Y" each, in mm.
@@ -21,6 +22,9 @@ Result<std::vector<ScreenPoint>> parse_points(const std::vector<std::string>& te
 // The thesis' points: the screen's middle at a third of its height, and 30 mm to the right of it farther down (100 and
 // 220 mm on a screen of 300 mm).
 [[nodiscard]] std::vector<ScreenPoint> thesis_points(const ScreenSize& screen);
+
+// Five that lie far to the left and right, where the camera sees them.
+[[nodiscard]] std::vector<ScreenPoint> default_points(const ScreenSize& screen);
 
 // Leads a person through it on the terminal: two pictures to show on the whole screen (written to the current folder),
 // hands away for the border, then one touch of each point.

@@ -15,16 +15,10 @@
 namespace telehug {
 namespace {
 
-// Of the thesis detector's tips, from what is left over when both samples' rigs are solved.
-constexpr double tip_sigma_px = 2;
-// Of the triangle's vertex, where two lines of some pixels' width meet.
-constexpr double vertex_sigma_u_px = 1.5;
-constexpr double vertex_sigma_v_px = 4;
-
 struct BorderPicture {
   BorderLine level;
   std::vector<BorderCandidate> candidates;
-  std::optional<ImagePoint> vertex;
+  std::optional<PointObservation> mark;
 };
 
 Result<BorderPicture> look_at_border(const RigDirectory& rig, const std::filesystem::path& otherwise) {
@@ -33,7 +27,8 @@ Result<BorderPicture> look_at_border(const RigDirectory& rig, const std::filesys
   if (!picture) return picture.error();
   const auto border = find_screen_border(*picture, rig.triangle ? BorderChoice::triangle : BorderChoice::longest);
   if (!border) return Error{fmt::format("{}: {}", source.string(), border.error().message)};
-  return BorderPicture{border->line, find_border_candidates(*picture, border->line), border->vertex};
+  return BorderPicture{border->line, find_border_candidates(*picture, border->line),
+                       triangle_mark(*border, rig.screen)};
 }
 
 Status add_touch(RigObservations& seen, const CalibrationTouch& touch, const BorderLine& level) {
@@ -48,7 +43,8 @@ Status add_touch(RigObservations& seen, const CalibrationTouch& touch, const Bor
   try {
     ThesisDetector detector(level, seen.image);
     const Fingers& fingers = detector.detect(*picture);
-    if (!fingers.empty()) seen.touches.push_back({touch.screen, fingers.front().tip, tip_sigma_px, tip_sigma_px});
+    if (!fingers.empty())
+      seen.touches.push_back({touch.screen, fingers.front().tip, thesis_tip_sigma_px, thesis_tip_sigma_px});
     return Done{};
   } catch (const std::invalid_argument& error) {
     return Error{fmt::format("{}: {}", touch.frame.picture.string(), error.what())};
@@ -77,10 +73,7 @@ Result<Calibration> calibrate_default_from_recording(const RigDirectory& rig, co
   for (const CalibrationTouch* touch : wanted) {
     if (const Status added = add_touch(seen, *touch, border->level); !added) return added.error();
   }
-  if (border->vertex) {
-    seen.marks.push_back(
-        {{0.5 * rig.screen.width_mm, rig.screen.height_mm}, *border->vertex, vertex_sigma_u_px, vertex_sigma_v_px});
-  }
+  if (border->mark) seen.marks.push_back(*border->mark);
   if (seen.touches.size() < 2) {
     return Error{
         fmt::format("{}: a finger was found in {} of {} calibration pictures, and 2 are needed: take them again",

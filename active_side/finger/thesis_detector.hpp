@@ -20,6 +20,9 @@
 
 namespace telehug {
 
+// Standard deviation of the tip's place in the picture, from what the solved rigs of both samples leave over.
+inline constexpr double thesis_tip_sigma_px = 2;
+
 struct ThesisOptions {
   // From the 4th row on, a row belongs to the finger only if more than 2/3 of the pixels between its outermost accepted
   // ones touch accepted pixels of the row before.

@@ -112,7 +112,7 @@ std::vector<Key> keys_of(ActiveConfig& c) {
       {"touch", "detector", &c.touch.detector, "", OneOf{{"default", "thesis"}},
        "How the finger is found; default: the best there is, at present the thesis'."},
       {"touch", "model", &c.touch.model, "", OneOf{{"default", "thesis"}},
-       "How a finger in the image becomes a point on the screen; default: as above."},
+       "How a finger in the image becomes a point on the screen; default: whatever the calibration holds."},
       {"touch", "up_after_ms", &c.touch.up_after_ms, "ms", Range{0, 1000},
        "How long a finger must be unseen before its touch ends."},
 

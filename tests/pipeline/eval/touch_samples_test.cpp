@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 #include <stdlib.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
@@ -15,7 +16,10 @@
 #include <string>
 #include <vector>
 
+#include "calibration/border_candidates.hpp"
 #include "calibration/calibration_file.hpp"
+#include "calibration/calibration_policy.hpp"
+#include "calibration/drift_watch.hpp"
 #include "calibration/screen_border.hpp"
 #include "capture/rig_directory.hpp"
 #include "eval/error_table.hpp"
@@ -112,6 +116,60 @@ TEST_P(TouchSamples, CalibrateBothRigsWithTwoTouches) {
     const auto read = read_calibration(folder / "rig.toml");
     ASSERT_TRUE(read.ok()) << read.error().message;
     EXPECT_DOUBLE_EQ(read->camera_below_top_mm(), calibration->camera_below_top_mm());
+  }
+}
+
+// The edge that the thesis' way does not find in rig 1 is there, measured along the lens' curve.
+TEST_P(TouchSamples, HoldTheScreensOwnEdgeAmongTheCandidates) {
+  for (const auto& [name, row] : {std::pair{"rig1", 523.8}, {"rig2", 543.4}}) {
+    const auto picture = read_picture(GetParam() / name / "background.jpg");
+    ASSERT_TRUE(picture.ok());
+    const BorderLine level = find_screen_border(*picture, BorderChoice::longest)->line;
+    double nearest_px = 100;
+    for (const BorderCandidate& candidate : find_border_candidates(*picture, level)) {
+      double off = 0;
+      for (const BorderObservation& point : candidate.points)
+        off += (point.image.v_px - level.v_at(point.image.u_px)) / static_cast<double>(candidate.points.size());
+      nearest_px = std::min(nearest_px, std::abs(off + level.v_at(640) - row));
+    }
+    EXPECT_LT(nearest_px, 1) << name;
+  }
+}
+
+TEST_P(TouchSamples, CalibrateTheDefaultModelWithAllTouches) {
+  for (const char* name : {"rig1", "rig2"}) {
+    const auto rig = open_rig_directory(GetParam() / name);
+    ASSERT_TRUE(rig.ok()) << rig.error().message;
+    const auto calibration = calibrate_from_recording(*rig, "default", {}, "2026-01-01T00:00:00Z");
+    ASSERT_TRUE(calibration.ok()) << calibration.error().message;
+    const auto& solved = std::get<RigCalibration>(calibration->solved);
+    EXPECT_EQ(solved.solution.model.camera.orientation(), PictureOrientation{}) << name;
+    EXPECT_NEAR(calibration->camera_below_top_mm(), 0, 40) << name;
+    EXPECT_TRUE(judge_calibration(solved, {}).good()) << name;
+    const Folder folder;
+    ASSERT_TRUE(write_calibration(folder / "rig.toml", *calibration).ok());
+    EXPECT_TRUE(read_calibration(folder / "rig.toml").ok());
+  }
+}
+
+// Whatever the screens show and whoever is in the way: the camera of a recording stands still.
+TEST_P(TouchSamples, NeverLookAsIfTheCameraHadMoved) {
+  for (const char* name : {"rig1", "rig2"}) {
+    const auto rig = open_rig_directory(GetParam() / name);
+    ASSERT_TRUE(rig.ok()) << rig.error().message;
+    const auto calibration = calibrate_from_recording(*rig, "default", {}, "").value();
+    const RigModel model = std::get<RigModel>(calibration.model());
+    BorderMeasurer measurer(model.camera, calibration.screen);
+    ASSERT_TRUE(measurer.learn(read_picture(*rig->background).value()));
+    for (const RigPart& part : rig->parts) {
+      DriftWatch watch(model.camera, calibration.screen);
+      Timestamp now{};
+      for (const RigFrame& frame : part.frames) {
+        const BorderShifts shifts = measurer.measure(read_picture(frame.picture).value());
+        for (int tenth = 0; tenth < 20; ++tenth, now += 100ms)
+          EXPECT_EQ(watch.update(shifts, now).state, DriftState::steady) << name << " " << part.name << frame.name;
+      }
+    }
   }
 }
 
