@@ -156,8 +156,10 @@ cv::Mat VirtualRig::picture_of_touch(const ScreenPoint& point) {
   cv::Mat shown = plain(settings_.screen, 0);
   const double x_px_per_mm = shown.cols / settings_.screen.width_mm;
   const double y_px_per_mm = shown.rows / settings_.screen.height_mm;
+  // A pixel's centre has whole coordinates in OpenCV, so the screen's edge lies half a pixel before 0.
   cv::ellipse(shown,
-              {cv::Point2f(static_cast<float>(point.x_mm * x_px_per_mm), static_cast<float>(point.y_mm * y_px_per_mm)),
+              {cv::Point2f(static_cast<float>(point.x_mm * x_px_per_mm - 0.5),
+                           static_cast<float>(point.y_mm * y_px_per_mm - 0.5)),
                cv::Size2f(static_cast<float>(dot_mm * x_px_per_mm), static_cast<float>(dot_mm * y_px_per_mm)), 0},
               cv::Scalar::all(255), cv::FILLED, cv::LINE_AA);
   return picture_of(shown, FingerPlace{point, 0});
