@@ -19,6 +19,12 @@ double Calibration::camera_below_top_mm() const noexcept {
   return std::get_if<ThesisCalibration>(&solved)->model.camera_below_top_mm();
 }
 
+BorderCurve border_curve(const Calibration& calibration) {
+  const auto* const rig = std::get_if<RigCalibration>(&calibration.solved);
+  if (rig == nullptr) return {calibration.border, calibration.image};
+  return {rig->solution.model.camera, calibration.screen};
+}
+
 BorderLine border_line(const RigCamera& camera, const ScreenSize& screen) {
   constexpr int columns = 64;
   double n = 0, su = 0, sv = 0, suu = 0, suv = 0;

@@ -5,6 +5,7 @@
 #include <string>
 #include <variant>
 
+#include "calibration/border_curve.hpp"
 #include "calibration/border_line.hpp"
 #include "calibration/rig_solver.hpp"
 #include "calibration/touch_model.hpp"
@@ -36,6 +37,9 @@ struct Calibration {
   // Negative: above it.
   [[nodiscard]] double camera_below_top_mm() const noexcept;
 };
+
+// The image of the screen's bottom edge: as the lens bends it, if the calibration knows the lens.
+[[nodiscard]] BorderCurve border_curve(const Calibration& calibration);
 
 // The straight line nearest to the image of the screen's bottom edge, which a lens bends a little.
 [[nodiscard]] BorderLine border_line(const RigCamera& camera, const ScreenSize& screen);

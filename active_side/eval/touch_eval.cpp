@@ -7,13 +7,15 @@
 #include <chrono>
 #include <fstream>
 #include <opencv2/core/mat.hpp>
+#include <stdexcept>
 #include <system_error>
 #include <utility>
 
 #include "capture/rig_directory.hpp"
 #include "common/clock.hpp"
+#include "eval/empty_rig.hpp"
 #include "eval/rig_calibration.hpp"
-#include "finger/thesis_detector.hpp"
+#include "finger/any_detector.hpp"
 #include "pictures/picture_file.hpp"
 #include "touch/contact_tracker.hpp"
 #include "touch/screen_points.hpp"
@@ -31,8 +33,7 @@ Status check_choice(const char* option, const std::string& choice) {
 // Reads the pictures of a part in order and collects what is found in each.
 class Evaluation {
  public:
-  explicit Evaluation(EvalTouchReport& report)
-      : report_(report), detector_(report.calibration.border, report.calibration.image) {}
+  Evaluation(EvalTouchReport& report, AnyDetector detector) : report_(report), detector_(std::move(detector)) {}
 
   void run(const RigPart& part) {
     const bool is_recording = part.name == "sequence";
@@ -63,7 +64,7 @@ class Evaluation {
       return {};
     }
     const auto touched =
-        screen_points(detector_.detect(*picture), report_.calibration.model(), report_.calibration.screen, image);
+        screen_points(detect(detector_, *picture), report_.calibration.model(), report_.calibration.screen, image);
     report_.dropped += touched.dropped;
     return touched.points;
   }
@@ -77,9 +78,20 @@ class Evaluation {
   }
 
   EvalTouchReport& report_;
-  ThesisDetector detector_;
+  AnyDetector detector_;
   ContactTracker tracker_;
 };
+
+Result<AnyDetector> make_detector(const std::string& choice, const Calibration& calibration, const RigDirectory& rig) {
+  try {
+    if (choice == "thesis") return AnyDetector(ThesisDetector(calibration.border, calibration.image));
+    const auto empty = picture_of_empty_rig(rig);
+    if (!empty) return empty.error();
+    return AnyDetector(FingerDetector(border_curve(calibration), *empty));
+  } catch (const std::invalid_argument& problem) {
+    return Error{fmt::format("{}: {}", rig.path.string(), problem.what())};
+  }
+}
 
 Status write_csv(const std::filesystem::path& path, const std::vector<FoundTouches>& found) {
   std::ofstream out(path);
@@ -111,8 +123,10 @@ Result<EvalTouchReport> eval_touch(const EvalTouchOptions& options) {
   if (!calibration) return calibration.error();
 
   const std::string model = calibration->model_name();
-  EvalTouchReport report{options, "thesis", model, std::move(*calibration), {}, {}, 0, std::nullopt};
-  Evaluation(report).run(*part);
+  auto detector = make_detector(options.detector, *calibration, *rig);
+  if (!detector) return detector.error();
+  EvalTouchReport report{options, options.detector, model, std::move(*calibration), {}, {}, 0, std::nullopt};
+  Evaluation(report, *std::move(detector)).run(*part);
   if (!part->truth.empty()) report.score = score_touches(report.found, part->truth);
   if (!options.out.empty()) {
     if (auto written = write_csv(options.out, report.found); !written) return written.error();
