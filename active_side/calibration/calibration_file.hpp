@@ -32,8 +32,9 @@
 //   [[touch]]                            # of known points
 //   x_mm = 190.0
 //   y_mm = 100.0
-//   u_px = 645.3                         # the finger's foremost point
+//   u_px = 645.3
 //   v_px = 588.1
+//   seen = "dot"                         # what is there: the dot's centre, or (and without it) the "fingertip"
 //   sigma_u_px = 0.5
 //   sigma_v_px = 0.5
 //   error_x_mm = 0.1                     # where the model places it, minus where it was; for people to read

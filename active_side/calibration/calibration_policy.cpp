@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "calibration/rig_accuracy.hpp"
+#include "calibration/rig_residuals.hpp"
 
 namespace telehug {
 namespace {
@@ -40,7 +41,7 @@ std::size_t worst_touch(const RigSolution& solution) {
 // Another dot that lies where the model of all other touches places this one.
 std::optional<std::size_t> dot_at(const RigCalibration& calibration, std::size_t touch,
                                   const std::vector<ScreenPoint>& dots, double limit_mm) {
-  const auto placed = calibration.solution.model.screen_point(calibration.observations.touches[touch].image);
+  const auto placed = touched_point(calibration.solution.model, calibration.observations.touches[touch]);
   if (!placed) return std::nullopt;
   std::optional<std::size_t> nearest;
   double nearest_mm = limit_mm;

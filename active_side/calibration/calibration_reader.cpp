@@ -8,6 +8,8 @@
 #include <optional>
 #include <vector>
 
+#include "calibration/rig_residuals.hpp"
+
 namespace telehug {
 namespace {
 
@@ -84,8 +86,8 @@ Result<Calibration> CalibrationReader::with_rig_model(const Common& c) {
   if (!solution) return Error{fmt::format("{}: {}", file_.string(), solution.error().message)};
   const RigModel model = make_rig_model(stored, c.image, picture);
   for (std::size_t i = 0; i < observations.touches.size(); ++i) {
-    const auto here = model.screen_point(observations.touches[i].image);
-    const auto solved = solution->model.screen_point(observations.touches[i].image);
+    const auto here = touched_point(model, observations.touches[i]);
+    const auto solved = touched_point(solution->model, observations.touches[i]);
     if (here && solved && std::hypot(here->x_mm - solved->x_mm, here->y_mm - solved->y_mm) < largest_contradiction_mm) {
       continue;
     }
@@ -172,9 +174,20 @@ std::vector<PointObservation> CalibrationReader::points(const char* name) {
     found.push_back({{number(point, "x_mm", size), number(point, "y_mm", size)},
                      {number(point, "u_px", any_number), number(point, "v_px", any_number)},
                      number(point, "sigma_u_px", {least_sigma_px, 1000}),
-                     number(point, "sigma_v_px", {least_sigma_px, 1000})});
+                     number(point, "sigma_v_px", {least_sigma_px, 1000}),
+                     evidence(point)});
   }
   return found;
+}
+
+// Files without it are older than the dots' use.
+TouchEvidence CalibrationReader::evidence(const Section& from) {
+  const toml::node* node = from.table->get("seen");
+  if (node == nullptr) return TouchEvidence::fingertip;
+  const std::string what = node->value_or(std::string{});
+  if (what == "dot") return TouchEvidence::dot;
+  if (what != "fingertip") fault(line_of(node, from.line), "seen must be \"fingertip\" or \"dot\"");
+  return TouchEvidence::fingertip;
 }
 
 std::vector<BorderObservation> CalibrationReader::border_points() {

@@ -46,6 +46,7 @@ class CalibrationReader {
   std::vector<Section> sections(const char* name);
   std::array<MeasuredTouch, 2> thesis_touches();
   std::vector<PointObservation> points(const char* name);
+  TouchEvidence evidence(const Section& from);
   std::vector<BorderObservation> border_points();
   RigParameters parameters(const Section& from);
   PictureOrientation orientation(const Section& from);

@@ -13,13 +13,16 @@
 
 namespace telehug {
 
-// A point of the screen and where the picture shows it (for touches: the finger's foremost point). Standard deviations
-// are of the image point, > 0.
+// What of a touch the image point is: the finger's foremost point, or the dot on the screen that the finger touches.
+enum class TouchEvidence { fingertip, dot };
+
+// A point of the screen and where the picture shows it. Standard deviations are of the image point, > 0.
 struct PointObservation {
   ScreenPoint screen;
   ImagePoint image;
   double sigma_u_px = 1;
   double sigma_v_px = 1;
+  TouchEvidence evidence = TouchEvidence::fingertip;  // of touches; marks are like dots
 };
 
 // An image point on the image of the screen's bottom edge; where on the edge is not known.

@@ -14,7 +14,13 @@ std::optional<ImagePoint> difference(const std::optional<ImagePoint>& expected, 
 }  // namespace
 
 std::optional<ImagePoint> touch_residual(const RigModel& model, const PointObservation& touch) {
+  if (touch.evidence == TouchEvidence::dot) return mark_residual(model, touch);
   return difference(tip_of_contact(model.camera, model.contact_radius_mm, touch.screen), touch.image);
+}
+
+std::optional<ScreenPoint> touched_point(const RigModel& model, const PointObservation& touch) {
+  if (touch.evidence == TouchEvidence::dot) return model.camera.screen_point(touch.image);
+  return model.screen_point(touch.image);
 }
 
 std::optional<ImagePoint> mark_residual(const RigModel& model, const PointObservation& mark) {

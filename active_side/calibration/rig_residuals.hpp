@@ -12,6 +12,8 @@ namespace telehug {
 // The image residuals of one rig: where the model sees each observation, minus where the picture shows it, px. Nothing
 // if the camera can't see it.
 [[nodiscard]] std::optional<ImagePoint> touch_residual(const RigModel& model, const PointObservation& touch);
+// Where on the screen the model places a touch.
+[[nodiscard]] std::optional<ScreenPoint> touched_point(const RigModel& model, const PointObservation& touch);
 [[nodiscard]] std::optional<ImagePoint> mark_residual(const RigModel& model, const PointObservation& mark);
 // Of the row alone: the image of the screen's bottom edge in that column.
 [[nodiscard]] std::optional<double> border_residual(const RigModel& model, double screen_height_mm,

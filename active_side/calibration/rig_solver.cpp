@@ -166,7 +166,7 @@ RigSolution describe(const RigObservations& all, const RigLeastSquares& used, co
   for (const PointObservation& touch : all.touches) {
     TouchResidual residual;
     residual.standardised = standardised(solution.model, touch);
-    if (const auto placed = solution.model.screen_point(touch.image)) {
+    if (const auto placed = touched_point(solution.model, touch)) {
       residual.error_mm = {placed->x_mm - touch.screen.x_mm, placed->y_mm - touch.screen.y_mm};
     } else {
       residual.error_mm = {infinite, infinite};

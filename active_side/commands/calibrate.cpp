@@ -122,6 +122,16 @@ double largest_error_mm(const RigSolution& solution) {
   return largest;
 }
 
+void print_touches(const RigCalibration& rig) {
+  for (std::size_t i = 0; i < rig.observations.touches.size(); ++i) {
+    const PointObservation& touch = rig.observations.touches[i];
+    const ScreenPoint& error = rig.solution.touches[i].error_mm;
+    fmt::print("touch {} at {:.0f},{:.0f} mm: {} {:+.2f} mm to the right, {:+.2f} mm down{}\n", i + 1,
+               touch.screen.x_mm, touch.screen.y_mm, touch.evidence == TouchEvidence::dot ? "dot" : "fingertip",
+               error.x_mm, error.y_mm, rig.solution.bad_touch == i ? ", not used" : "");
+  }
+}
+
 // Prints what could be better. The error says why the calibration is not worth keeping.
 Status judge(const Calibration& calibration) {
   const auto* rig = std::get_if<RigCalibration>(&calibration.solved);
@@ -129,6 +139,7 @@ Status judge(const Calibration& calibration) {
   std::vector<ScreenPoint> dots;
   for (const PointObservation& touch : rig->observations.touches)
     dots.push_back(touch.screen);
+  print_touches(*rig);
   const CalibrationVerdict verdict = judge_calibration(*rig, dots);
   for (const std::string& advice : verdict.advice)
     fmt::print("{}\n", advice);

@@ -4,9 +4,12 @@
 #include <fmt/format.h>
 
 #include <opencv2/core/mat.hpp>
+#include <optional>
 #include <stdexcept>
+#include <utility>
 
 #include "calibration/border_choice.hpp"
+#include "calibration/dot_touches.hpp"
 #include "calibration/screen_border.hpp"
 #include "eval/calibration_touches.hpp"
 #include "finger/thesis_detector.hpp"
@@ -31,24 +34,34 @@ Result<BorderPicture> look_at_border(const RigDirectory& rig, const std::filesys
                        triangle_mark(*border, rig.screen)};
 }
 
-Status add_touch(RigObservations& seen, const CalibrationTouch& touch, const BorderLine& level) {
-  const auto picture = read_picture(touch.frame.picture);
-  if (!picture) return picture.error();
-  if (seen.image.width_px == 0) seen.image = {picture->cols, picture->rows};
-  if (picture->cols != seen.image.width_px || picture->rows != seen.image.height_px) {
-    return Error{fmt::format("{}: {}x{} pixels, but the first calibration picture has {}x{}",
-                             touch.frame.picture.string(), picture->cols, picture->rows, seen.image.width_px,
-                             seen.image.height_px)};
+Result<std::vector<DotPicture>> read_pictures(const std::vector<const CalibrationTouch*>& touches) {
+  std::vector<DotPicture> pictures;
+  for (const CalibrationTouch* touch : touches) {
+    const auto picture = read_picture(touch->frame.picture);
+    if (!picture) return picture.error();
+    const cv::Mat& first = pictures.empty() ? *picture : pictures.front().bgr;
+    if (picture->size() != first.size()) {
+      return Error{fmt::format("{}: {}x{} pixels, but the first calibration picture has {}x{}",
+                               touch->frame.picture.string(), picture->cols, picture->rows, first.cols, first.rows)};
+    }
+    pictures.push_back({*picture, touch->screen, std::nullopt});
   }
+  return pictures;
+}
+
+Result<std::vector<PointObservation>> fingertips(const std::vector<DotPicture>& pictures, const BorderLine& level) {
+  std::vector<PointObservation> touches;
   try {
-    ThesisDetector detector(level, seen.image);
-    const Fingers& fingers = detector.detect(*picture);
-    if (!fingers.empty())
-      seen.touches.push_back({touch.screen, fingers.front().tip, thesis_tip_sigma_px, thesis_tip_sigma_px});
-    return Done{};
+    ThesisDetector detector(level, {pictures.front().bgr.cols, pictures.front().bgr.rows});
+    for (const DotPicture& picture : pictures) {
+      const Fingers& fingers = detector.detect(picture.bgr);
+      if (fingers.empty()) continue;
+      touches.push_back({picture.screen, fingers.front().tip, thesis_tip_sigma_px, thesis_tip_sigma_px});
+    }
   } catch (const std::invalid_argument& error) {
-    return Error{fmt::format("{}: {}", touch.frame.picture.string(), error.what())};
+    return Error{error.what()};
   }
+  return touches;
 }
 
 }  // namespace
@@ -68,18 +81,27 @@ Result<Calibration> calibrate_default_from_recording(const RigDirectory& rig, co
   const auto border = look_at_border(rig, wanted.front()->frame.picture);
   if (!border) return border.error();
 
+  auto pictures = read_pictures(wanted);
+  if (!pictures) return pictures.error();
   RigObservations seen;
   seen.screen = rig.screen;
-  for (const CalibrationTouch* touch : wanted) {
-    if (const Status added = add_touch(seen, *touch, border->level); !added) return added.error();
-  }
+  seen.image = {pictures->front().bgr.cols, pictures->front().bgr.rows};
   if (border->mark) seen.marks.push_back(*border->mark);
-  if (seen.touches.size() < 2) {
-    return Error{
-        fmt::format("{}: a finger was found in {} of {} calibration pictures, and 2 are needed: take them again",
-                    rig.path.string(), seen.touches.size(), wanted.size())};
+  find_dots(*pictures, border->level);
+  seen.touches = dot_touches(*pictures);
+  const bool dots = !seen.touches.empty();
+  if (!dots) {
+    auto tips = fingertips(*pictures, border->level);
+    if (!tips) return Error{fmt::format("{}: {}", rig.path.string(), tips.error().message)};
+    seen.touches = *std::move(tips);
   }
-  auto solved = solve_with_border(seen, border->candidates);
+  if (seen.touches.size() < 2) {
+    return Error{fmt::format(
+        "{}: a touched dot or a finger was found in {} of {} calibration pictures, and 2 are needed: take them again",
+        rig.path.string(), seen.touches.size(), wanted.size())};
+  }
+  auto solved =
+      dots ? solve_with_dots(seen, *pictures, border->candidates) : solve_with_border(seen, border->candidates);
   if (!solved) return Error{fmt::format("{}: {}", rig.path.string(), solved.error().message)};
   const RigCamera& camera = solved->calibration.solution.model.camera;
   return Calibration{"recording " + rig.path.string(), date, seen.image, rig.screen, border_line(camera, rig.screen),
