@@ -10,6 +10,7 @@
 #include <string_view>
 #include <vector>
 
+#include "capture/virtual_rig/screen_content.hpp"
 #include "pictures/picture_file.hpp"
 
 namespace telehug {
@@ -106,9 +107,9 @@ class RigExporter {
 
   [[nodiscard]] std::string truth_row(const std::string& name, const std::optional<FingerPlace>& finger) const {
     static constexpr std::array tones{"I", "II", "III", "IV", "V", "VI"};
-    const char* screen = rig_settings_.screen_picture.empty() ? "gradient" : "picture";
+    const std::string_view screen = rig_settings_.screen_picture.empty() ? name_of(rig_settings_.content) : "picture";
     if (!finger) return fmt::format("{},0,,,,,,{},nohand\n", name, screen);
-    const char* tone = tones[static_cast<std::size_t>(rig_settings_.skin_tone - 1)];
+    const char* tone = tones[static_cast<std::size_t>(rig_settings_.hand.skin_tone - 1)];
     const bool contact = finger->hover_mm <= 0;
     return fmt::format("{},{},{:.2f},{:.2f},{},right,{},{},{}\n", name, contact ? 1 : 0, finger->foot.x_mm,
                        finger->foot.y_mm, contact ? std::string{} : fmt::format("{:.1f}", finger->hover_mm), tone,

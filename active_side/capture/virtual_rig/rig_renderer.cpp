@@ -7,34 +7,14 @@
 #include <limits>
 #include <opencv2/imgproc.hpp>
 
+#include "capture/virtual_rig/screen_content.hpp"
+
 namespace telehug {
 namespace {
 
 // Blue, green, red of the skin in full light, Fitzpatrick I to VI.
-const std::array<cv::Vec3d, 6> skin_colours{cv::Vec3d{184, 204, 238}, cv::Vec3d{142, 174, 224},
-                                            cv::Vec3d{116, 152, 206}, cv::Vec3d{84, 118, 172},
-                                            cv::Vec3d{58, 84, 128},   cv::Vec3d{44, 58, 88}};
-
-// Skin is lit from all sides and a little more from above and in front.
-const cv::Vec3d towards_light{0.15, -0.83, 0.53};
-constexpr double ambient = 0.78;
-constexpr double directed = 0.22;
-
-// A coat scatters: the mirror image of what is further away is fainter.
-constexpr double mirror_range_mm = 60;
-
-constexpr int noise_shift_px = 64;
-const cv::Size blur_size{3, 3};
-
-cv::Mat dark_gradient() {
-  cv::Mat picture(16, 1, CV_8UC3);
-  for (int row = 0; row < picture.rows; ++row) {
-    const int level = 16 + 2 * row;
-    picture.at<cv::Vec3b>(row, 0) = {cv::saturate_cast<uchar>(level + 14), cv::saturate_cast<uchar>(level + 4),
-                                     cv::saturate_cast<uchar>(level)};
-  }
-  return picture;
-}
+const std::array<Tint, 6> skin_tints{Tint{184, 204, 238}, Tint{142, 174, 224}, Tint{116, 152, 206},
+                                     Tint{84, 118, 172},  Tint{58, 84, 128},   Tint{44, 58, 88}};
 
 RoundCone mirrored_in_screen(RoundCone cone) {
   cone.a[2] = -cone.a[2];
@@ -42,90 +22,95 @@ RoundCone mirrored_in_screen(RoundCone cone) {
   return cone;
 }
 
-cv::Mat half_noise(cv::RNG& generator, cv::Size size, double sd) {
-  cv::Mat noise(size, CV_8UC3);
-  generator.fill(noise, cv::RNG::NORMAL, 0, sd);  // what is below 0 becomes 0
-  return noise;
-}
-
 }  // namespace
 
 RigRenderer::RigRenderer(const VirtualRigSettings& settings)
-    : settings_(settings), camera_(settings.camera, settings.focal_px, settings.image) {
+    : settings_(settings),
+      camera_(settings.camera, settings.focal_px, settings.image, settings.distortion_k1),
+      lighting_(settings.light),
+      development_(settings),
+      mirror_blur_(settings.coat.roughness_deg, settings.focal_px, settings.camera.position_mm[2]) {
   const cv::Size size(settings.image.width_px, settings.image.height_px);
-  sharp_.create(size, CV_8UC3);
   nearest_t_.create(size, CV_32FC1);
-  show(settings.screen_picture.empty() ? dark_gradient() : settings.screen_picture);
-  // Each of the two is half of a normal distribution; their difference has mean 0 and about this deviation.
-  cv::RNG generator(settings.seed + 0x9E3779B97F4A7C15ULL);
-  const cv::Size larger = size + cv::Size(noise_shift_px, noise_shift_px);
-  brighter_ = half_noise(generator, larger, settings.noise_sd * 1.2);
-  darker_ = half_noise(generator, larger, settings.noise_sd * 1.2);
+  show(settings.screen_picture.empty() ? draw_screen_content(settings.content, settings.screen, settings.seed)
+                                       : settings.screen_picture);
 }
 
 void RigRenderer::show(const cv::Mat& picture) {
   scene_ = render_scene(settings_, camera_, picture);
-  cv::Mat blurred;  // a new one: a copy of this renderer may still draw with the old one
-  cv::GaussianBlur(scene_.picture, blurred, blur_size, 0);
-  blurred_scene_ = blurred;
+  cv::Mat coded;  // a new one: a copy of this renderer may still draw with the old one
+  cv::Mat light(scene_.own.size(), CV_32FC3);
+  for (int v = 0; v < light.rows; ++v) {
+    for (int u = 0; u < light.cols; ++u)
+      light.at<Light>(v, u) =
+          scene_.own.at<Light>(v, u) + scene_.mirrored.at<Light>(v, u) * scene_.reflectance.at<float>(v, u);
+  }
+  development_.code(light, coded);
+  coded_scene_ = coded;
 }
 
 void RigRenderer::draw(const std::optional<FingerPlace>& finger, std::uint64_t noise_index, cv::Mat& bgr) {
-  draw_without_noise(finger, bgr);
-  if (settings_.noise_sd > 0) add_noise(noise_index, bgr);
+  coded_scene_.copyTo(coded_);
+  if (finger) {
+    const Hand hand = hand_at(*finger);
+    const cv::Rect picture({0, 0}, coded_.size());
+    cv::Rect box;
+    for (const RoundCone& cone : hand)
+      box |= box_of(cone) | box_of(mirrored_in_screen(cone));
+    if (!box.empty()) {
+      const int margin = 2 * Development::margin_px;
+      const cv::Rect around =
+          cv::Rect(box.x - margin, box.y - margin, box.width + 2 * margin, box.height + 2 * margin) & picture;
+      cv::Mat layer(coded_.size(), CV_32FC4, cv::Scalar::all(0));
+      cv::Mat mirror(coded_.size(), CV_32FC4, cv::Scalar::all(0));
+      cv::Mat height(coded_.size(), CV_32FC1, cv::Scalar::all(0));
+      draw_hand(hand, true, mirror, height);
+      cv::Mat mirror_part = mirror(around);
+      mirror_blur_.apply(mirror_part, height(around));
+      draw_hand(hand, false, layer, height);
+      cv::Mat light(around.size(), CV_32FC3);
+      for (int v = 0; v < light.rows; ++v) {
+        for (int u = 0; u < light.cols; ++u) {
+          const cv::Point at(u + around.x, v + around.y);
+          const auto& m = mirror.at<cv::Vec4f>(at);
+          const auto& h = layer.at<cv::Vec4f>(at);
+          const Light mirrored = scene_.mirrored.at<Light>(at) * (1 - m[3]) + Light{m[0], m[1], m[2]};
+          const Light behind = scene_.own.at<Light>(at) + mirrored * scene_.reflectance.at<float>(at);
+          light.at<Light>(v, u) = behind * (1 - h[3]) + Light{h[0], h[1], h[2]};
+        }
+      }
+      cv::Mat coded;
+      development_.code(light, coded);
+      coded.copyTo(coded_(around));
+    }
+  }
+  development_.expose(coded_, development_.exposure_of(noise_index), bgr);
+  development_.add_noise(noise_index, bgr);
+  development_.compress(bgr);
 }
 
-void RigRenderer::draw_without_noise(const std::optional<FingerPlace>& finger, cv::Mat& bgr) {
-  blurred_scene_.copyTo(bgr);
-  if (!finger) return;
-  const Hand hand = hand_at(*finger);
-  const cv::Rect picture({0, 0}, bgr.size());
-  drawn_ = {};
-  for (const RoundCone& cone : hand) {
-    drawn_ |= box_of(cone);
-    if (settings_.mirror > 0) drawn_ |= box_of(mirrored_in_screen(cone));
-  }
-  if (drawn_.empty()) return;
-  scene_.picture(drawn_).copyTo(sharp_(drawn_));
-  nearest_t_(drawn_) = std::numeric_limits<float>::max();
-  if (settings_.mirror > 0) {
-    draw_hand(hand, true);
-    nearest_t_(drawn_) = std::numeric_limits<float>::max();
-  }
-  draw_hand(hand, false);
-  // The blur looks one pixel beyond what it writes, and the hand stays one pixel inside the box.
-  cv::Mat target = bgr(drawn_);
-  cv::GaussianBlur(sharp_(drawn_), target, blur_size, 0, 0, cv::BORDER_REPLICATE | cv::BORDER_ISOLATED);
-}
-
-void RigRenderer::draw_hand(const Hand& hand, bool mirrored) {
+void RigRenderer::draw_hand(const Hand& hand, bool mirrored, cv::Mat& layer, cv::Mat& height_mm) {
+  nearest_t_ = std::numeric_limits<float>::max();
   for (const RoundCone& cone : hand)
-    draw_cone(mirrored ? mirrored_in_screen(cone) : cone, mirrored);
+    draw_cone(mirrored ? mirrored_in_screen(cone) : cone, mirrored, layer, height_mm);
 }
 
-void RigRenderer::draw_cone(const RoundCone& cone, bool mirrored) {
+void RigRenderer::draw_cone(const RoundCone& cone, bool mirrored, cv::Mat& layer, cv::Mat& height_mm) {
   const cv::Rect box = box_of(cone);
   const RoundConeCaster caster(cone, camera_.position_mm());
-  const cv::Vec3d& skin = skin_colours[static_cast<std::size_t>(settings_.skin_tone - 1)];
-  const RigPoint one_right = camera_.ray(1, 0) - camera_.ray(0, 0);
+  const Light skin = linear(skin_tints[static_cast<std::size_t>(settings_.hand.skin_tone - 1)]);
   for (int v = box.y; v < box.y + box.height; ++v) {
-    RigPoint ray = camera_.ray(box.x, v);
-    for (int u = box.x; u < box.x + box.width; ++u, ray += one_right) {
-      if (mirrored && scene_.is_screen.at<uchar>(v, u) == 0) continue;
+    for (int u = box.x; u < box.x + box.width; ++u) {
+      const RigPoint ray = camera_.ray(u, v);
       const auto hit = caster.cast(ray);
       auto& nearest_t = nearest_t_.at<float>(v, u);
       if (!hit || hit->t >= static_cast<double>(nearest_t)) continue;
       nearest_t = static_cast<float>(hit->t);
-      RigPoint normal = hit->normal;
+      cv::Vec3f normal = hit->normal;
       if (mirrored) normal[2] = -normal[2];
-      cv::Vec3d colour = skin * (ambient + directed * normal.dot(towards_light));
-      if (mirrored) {
-        const double behind_screen_mm = -(camera_.position_mm()[2] + hit->t * ray[2]);
-        colour = colour * (settings_.mirror * std::exp(-behind_screen_mm / mirror_range_mm)) +
-                 cv::Vec3d(scene_.unmirrored.at<cv::Vec3b>(v, u));
-      }
-      sharp_.at<cv::Vec3b>(v, u) = {cv::saturate_cast<uchar>(colour[0]), cv::saturate_cast<uchar>(colour[1]),
-                                    cv::saturate_cast<uchar>(colour[2])};
+      const Light light = product(skin, lighting_.on(normal));
+      layer.at<cv::Vec4f>(v, u) = {light[0], light[1], light[2], 1};
+      if (mirrored) height_mm.at<float>(v, u) = -static_cast<float>(camera_.position_mm()[2] + hit->t * ray[2]);
     }
   }
 }
@@ -153,16 +138,6 @@ cv::Rect RigRenderer::box_of(const RoundCone& cone) const {
       cv::Point(static_cast<int>(std::max(left, -far)), static_cast<int>(std::max(top, -far))),
       cv::Point(static_cast<int>(std::min(right, far)) + 1, static_cast<int>(std::min(bottom, far)) + 1));
   return box & cv::Rect(0, 0, settings_.image.width_px, settings_.image.height_px);
-}
-
-void RigRenderer::add_noise(std::uint64_t noise_index, cv::Mat& bgr) const {
-  cv::RNG place(noise_index * 0x9E3779B97F4A7C15ULL + settings_.seed + 1);
-  const auto shifted = [&](const cv::Mat& noise) {
-    const cv::Point corner(place.uniform(0, noise_shift_px), place.uniform(0, noise_shift_px));
-    return noise(cv::Rect(corner, bgr.size()));
-  };
-  cv::add(bgr, shifted(brighter_), bgr);
-  cv::subtract(bgr, shifted(darker_), bgr);
 }
 
 }  // namespace telehug

@@ -45,8 +45,24 @@ Status check_virtual_rig(const VirtualRigSettings& s) {
       !within(s.desk_below_mm, 10, 2000)) {
     return Error{"virtual rig: bezel_mm must be 0 to 500, desk_below_mm 10 to 2000, the bezel lower than the camera"};
   }
-  if (s.skin_tone < 1 || s.skin_tone > 6) return Error{"virtual rig: skin_tone must be 1 to 6 (Fitzpatrick)"};
-  if (!within(s.mirror, 0, 1)) return Error{"virtual rig: mirror must be 0 to 1"};
+  if (!within(s.distortion_k1, -0.3, 0.3)) return Error{"virtual rig: distortion_k1 must be -0.3 to 0.3"};
+  if (s.hand.skin_tone < 1 || s.hand.skin_tone > 6) return Error{"virtual rig: skin_tone must be 1 to 6 (Fitzpatrick)"};
+  if (!within(s.hand.finger_width_mm, 8, 30) || !within(s.hand.nail_mm, 0, 30)) {
+    return Error{"virtual rig: fingers must be 8 to 30 mm wide, nails 0 to 30 mm long"};
+  }
+  if (!within(s.coat.mirror, 0, 1) || !within(s.coat.roughness_deg, 0, 20) || !within(s.coat.haze, 0, 1)) {
+    return Error{"virtual rig: the coat's mirror and haze must be 0 to 1, its roughness 0 to 20 degrees"};
+  }
+  if (!within(s.light.level, 0, 100) || !within(s.light.directed, 0, 1) || !(cv::norm(s.light.towards) > 0)) {
+    return Error{"virtual rig: the light's level must be 0 to 100, its directed share 0 to 1, its direction not 0"};
+  }
+  if (!within(s.sensor.exposure, 0.001, 1000) || !within(s.sensor.exposure_spread, 0, 2) ||
+      !within(s.sensor.blur_px, 0, 2.4) || !within(s.sensor.sharpening, 0, 5) || s.sensor.jpeg_quality < 0 ||
+      s.sensor.jpeg_quality > 100) {
+    return Error{
+        "virtual rig: exposure must be 0.001 to 1000, its spread 0 to 2, blur_px 0 to 2.4, sharpening 0 to 5, "
+        "jpeg_quality 0 to 100"};
+  }
   if (!within(s.noise_sd, 0, 50)) return Error{"virtual rig: noise_sd must be 0 to 50"};
   if (!within(s.camera.position_mm[2], 1, 1000) || !within(s.camera.position_mm[1], -1000, 0)) {
     return Error{"virtual rig: the camera must be 1 to 1000 mm in front of the screen, at its upper edge or above"};
@@ -171,7 +187,7 @@ std::vector<ScreenPoint> calibration_points(const VirtualRigSettings& settings) 
        {std::pair{0.41, 0.53}, {0.63, 0.53}, {0.24, 0.72}, {0.77, 0.72}, {0.18, 0.87}, {0.74, 0.87}, {0.34, 0.93}}) {
     wanted.push_back({x * width_mm, y * height_mm});
   }
-  const PinholeCamera camera(settings.camera, settings.focal_px, settings.image);
+  const PinholeCamera camera(settings.camera, settings.focal_px, settings.image, settings.distortion_k1);
   std::erase_if(wanted, [&](const ScreenPoint& point) {
     const ImagePoint p = camera.project({point.x_mm, point.y_mm, 0});
     return p.u_px < margin_px || p.v_px < margin_px || p.u_px > settings.image.width_px - margin_px ||
