@@ -10,16 +10,12 @@ namespace {
 
 constexpr double sideways = 0.2;  // sine of a grazing angle of 12 degrees
 
-// Mean of the values between two places on a column, given the sums of all values before each.
-cv::Vec4d mean_between(const std::vector<cv::Vec4d>& sums, double from, double to) {
-  const double last = static_cast<double>(sums.size()) - 2;  // row that stands for all below it
-  const auto sum_before = [&](double place) {
-    if (place <= 0) return sums[1] * place;
-    if (place >= last) return sums[sums.size() - 2] + (sums.back() - sums[sums.size() - 2]) * (place - last);
-    const auto row = static_cast<std::size_t>(place);
-    return sums[row] + (sums[row + 1] - sums[row]) * (place - static_cast<double>(row));
-  };
-  return (sum_before(to) - sum_before(from)) * (1 / (to - from));
+// Sum of all values before a place on a column, given the sums before each row; beyond the ends they go on as they are.
+cv::Vec4f sum_before(const std::vector<cv::Vec4f>& sums, float place) {
+  const std::size_t last = sums.size() - 2;
+  if (place <= 0) return sums[1] * place;
+  const std::size_t row = std::min(last, static_cast<std::size_t>(place));
+  return sums[row] + (sums[row + 1] - sums[row]) * (place - static_cast<float>(row));
 }
 
 }  // namespace
@@ -40,6 +36,10 @@ void MirrorBlur::apply(cv::Mat& image, const cv::Mat& height_mm) {
     blur_column(turned, turned_height, column);
   px_per_share_ = upright;
   cv::Mat(turned.t()).copyTo(image);
+}
+
+int MirrorBlur::reach_px() const {
+  return static_cast<int>(std::min(0.5 * px_per_share_, 60.0)) + 1;
 }
 
 // A box of half width 1.7 standard deviations has that standard deviation; each row has a box of its own. Rows without
@@ -73,11 +73,12 @@ void MirrorBlur::blur_column(cv::Mat& image, const cv::Mat& height_mm, int colum
   for (int pass = 0; pass < 2; ++pass) {  // two boxes make a triangle, much like the bell of a rough surface
     sums_[0] = {};
     for (std::size_t row = 0; row < rows; ++row)
-      sums_[row + 1] = sums_[row] + cv::Vec4d(image.at<cv::Vec4f>(static_cast<int>(row), column));
+      sums_[row + 1] = sums_[row] + image.at<cv::Vec4f>(static_cast<int>(row), column);
     for (std::size_t row = 0; row < rows; ++row) {
-      const double half = std::max(0.5, static_cast<double>(reach_px_[row]) / std::numbers::sqrt2);
-      const double middle = static_cast<double>(row) + 0.5;
-      image.at<cv::Vec4f>(static_cast<int>(row), column) = mean_between(sums_, middle - half, middle + half);
+      const float half = std::max(0.5F, reach_px_[row] / std::numbers::sqrt2_v<float>);
+      const float middle = static_cast<float>(row) + 0.5F;
+      image.at<cv::Vec4f>(static_cast<int>(row), column) =
+          (sum_before(sums_, middle + half) - sum_before(sums_, middle - half)) * (1 / (2 * half));
     }
   }
 }

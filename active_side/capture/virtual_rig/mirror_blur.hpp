@@ -18,12 +18,15 @@ class MirrorBlur {
   // positive. In place; what lies beyond the picture is taken to be as its border.
   void apply(cv::Mat& image, const cv::Mat& height_mm);
 
+  // How far around a mirror image its blur is worth drawing.
+  [[nodiscard]] int reach_px() const;
+
  private:
   void blur_column(cv::Mat& image, const cv::Mat& height_mm, int column);
 
   double px_per_share_;  // 2 f angle
   double camera_z_mm_;
-  std::vector<cv::Vec4d> sums_;
+  std::vector<cv::Vec4f> sums_;
   std::vector<float> reach_px_;
 };
 

@@ -1,12 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <memory>
 #include <opencv2/core/mat.hpp>
 #include <optional>
+#include <vector>
 
 #include "capture/virtual_rig/development.hpp"
-#include "capture/virtual_rig/hand.hpp"
+#include "capture/virtual_rig/hand_pose.hpp"
+#include "capture/virtual_rig/hand_shading.hpp"
+#include "capture/virtual_rig/hand_shadow.hpp"
+#include "capture/virtual_rig/mesh_raster.hpp"
 #include "capture/virtual_rig/mirror_blur.hpp"
 #include "capture/virtual_rig/pinhole_camera.hpp"
 #include "capture/virtual_rig/rig_scene.hpp"
@@ -14,8 +20,8 @@
 
 namespace telehug {
 
-// Draws the pictures of a virtual rig: the scene is rendered once, a frame only adds the hand, its mirror image in the
-// screen, and what lens and sensor do to them.
+// Draws the pictures of a virtual rig: the scene is rendered once, a frame only adds hands, their shadows and mirror
+// images, and what lens and sensor do to them.
 class RigRenderer {
  public:
   explicit RigRenderer(const VirtualRigSettings& settings);
@@ -23,25 +29,50 @@ class RigRenderer {
   // Shows another picture on the screen (CV_8UC3; renders the scene anew, some 100 ms).
   void show(const cv::Mat& picture);
 
-  // `finger` nullopt: nobody there. The same `noise_index` gives the same noise and exposure.
+  // No hands: nobody there. The same `noise_index` gives the same noise and exposure.
+  void draw(const std::vector<HandPose>& hands, std::uint64_t noise_index, cv::Mat& bgr);
+
+  // One hand in its usual pose, or nobody.
   void draw(const std::optional<FingerPlace>& finger, std::uint64_t noise_index, cv::Mat& bgr);
 
   [[nodiscard]] const PinholeCamera& camera() const noexcept { return camera_; }
 
  private:
-  void draw_hand(const Hand& hand, bool mirrored, cv::Mat& layer, cv::Mat& height_mm);
-  void draw_cone(const RoundCone& cone, bool mirrored, cv::Mat& layer, cv::Mat& height_mm);
-  [[nodiscard]] cv::Rect box_of(const RoundCone& cone) const;
+  struct KnownShape {
+    HandPose pose;
+    HandShape shape;
+  };
+
+  const HandShape& shape_of(const HandPose& pose);
+  [[nodiscard]] cv::Rect raster(bool mirrored, cv::Mat& image, cv::Mat& height_mm);
+  void add_shadows();
+  void compose(const cv::Rect& box, const cv::Rect& hand_box, const cv::Rect& mirror_box);
 
   VirtualRigSettings settings_;
   PinholeCamera camera_;
   RoomLighting lighting_;
   Development development_;
   MirrorBlur mirror_blur_;
+  MeshRaster raster_;
   RigScene scene_;
-  cv::Mat coded_scene_;
+  cv::Rect screen_box_;  // the part of the picture where the screen is
+  cv::Mat light_;        // of the scene with what the screen mirrors, CV_32FC3
+  cv::Mat coded_scene_;  // the same, coded
+  std::optional<HandShadow> shadow_;
+  std::vector<std::shared_ptr<const KnownShape>> shapes_;  // the newest last
+
+  // Of the picture that is being drawn.
   cv::Mat coded_;
-  cv::Mat nearest_t_;  // CV_32FC1: distance of what was drawn so far along each pixel's ray
+  std::vector<std::shared_ptr<const KnownShape>> drawn_;
+  std::vector<SeenHand> seen_;
+  std::vector<std::array<const RasterVertex*, 3>> triangles_;  // those that face the camera
+  cv::Mat shadow_factor_;
+  cv::Rect shadow_box_;
+  cv::Mat hand_image_;
+  cv::Mat mirror_image_;
+  cv::Mat heights_;
+  cv::Mat composed_;
+  cv::Mat coded_part_;
 };
 
 }  // namespace telehug

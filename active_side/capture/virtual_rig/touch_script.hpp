@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "capture/virtual_rig/hand_pose.hpp"
 #include "common/units.hpp"
 
 namespace telehug {
@@ -26,12 +27,6 @@ struct TouchScript {
 
 inline constexpr double approach_s = 0.3;
 inline constexpr double approach_from_mm = 180;
-
-// Where the finger's foremost point is: over or on a point of the screen.
-struct FingerPlace {
-  ScreenPoint foot;     // straight below it on the screen
-  double hover_mm = 0;  // 0: it touches
-};
 
 // nullopt: nobody is there.
 std::optional<FingerPlace> finger_at(const TouchScript& script, double time_s);
