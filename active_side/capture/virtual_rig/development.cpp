@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "capture/virtual_rig/development.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 #include <utility>
@@ -14,6 +15,18 @@ constexpr int noise_shift_px = 64;
 constexpr double grain_px = 0.5;  // webcams smooth their noise a little
 constexpr double code_scale = 16;
 constexpr std::uint64_t golden = 0x9E3779B97F4A7C15ULL;
+
+// Of every eighth pixel and row, 0 to 255 and, where it is too bright for a picture, 255.
+double mean_tone(const cv::Mat& coded) {
+  double sum = 0;
+  int count = 0;
+  for (int v = 0; v < coded.rows; v += 8) {
+    const auto* row = coded.ptr<cv::Vec3w>(v);
+    for (int u = 0; u < coded.cols; u += 8, ++count)
+      sum += std::min(255.0, (row[u][0] + row[u][1] + row[u][2]) / (3 * code_scale));
+  }
+  return sum / count;
+}
 
 }  // namespace
 
@@ -52,10 +65,17 @@ void Development::expose(const cv::Mat& coded, double exposure, cv::Mat& bgr) co
   coded.convertTo(bgr, CV_8U, std::sqrt(exposure) / code_scale);
 }
 
-double Development::exposure_of(std::uint64_t picture) const {
-  if (sensor_.exposure_spread <= 0) return sensor_.exposure;
-  cv::RNG generator((picture + 77) * golden + seed_);
-  return sensor_.exposure * std::exp(generator.gaussian(sensor_.exposure_spread));
+double Development::exposure_of(const cv::Mat& coded, std::uint64_t picture) const {
+  double exposure = sensor_.exposure;
+  if (sensor_.auto_exposure > 0) {
+    const double tone = std::max(1.0, mean_tone(coded) * std::sqrt(exposure));
+    exposure *= std::clamp(std::pow(sensor_.target_tone / tone, 2 * sensor_.auto_exposure), 0.2, 6.0);
+  }
+  if (sensor_.exposure_spread > 0) {
+    cv::RNG generator((picture + 77) * golden + seed_);
+    exposure *= std::exp(generator.gaussian(sensor_.exposure_spread));
+  }
+  return exposure;
 }
 
 void Development::add_noise(std::uint64_t picture, cv::Mat& bgr) const {

@@ -24,8 +24,8 @@ class Development {
   // CV_16UC3 to CV_8UC3 with this exposure; no noise.
   void expose(const cv::Mat& coded, double exposure, cv::Mat& bgr) const;
 
-  // What the settings' spread makes of the exposure in this picture.
-  [[nodiscard]] double exposure_of(std::uint64_t picture) const;
+  // What the settings' automatic exposure and its spread make of a picture: a factor for linear light.
+  [[nodiscard]] double exposure_of(const cv::Mat& coded, std::uint64_t picture) const;
 
   // The same `picture` gives the same noise.
   void add_noise(std::uint64_t picture, cv::Mat& bgr) const;

@@ -103,6 +103,12 @@ HandShape hand_shape(const HandPose& pose, const HandLooks& looks) {
     });
   });
   shape.mesh.append(rest);
+  if (!skeleton.clothes.empty()) {
+    DistanceGrid cloth(box_around(skeleton.clothes, 2 * hand_step_mm), hand_step_mm);
+    for (const Limb& limb : skeleton.clothes)
+      cloth.add(limb);
+    shape.mesh.append(cloth.surface(skeleton.clothes));
+  }
   if (looks.sleeve != Sleeve::glove) {
     for (std::size_t i = 0; i < skeleton.ends.size(); ++i) {
       HandLooks short_nails = looks;

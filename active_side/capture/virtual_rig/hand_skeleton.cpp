@@ -127,7 +127,8 @@ class HandBuilder {
     add(wrist_, forearm, 22, 36, hand.nail, 0.8F, 10);
     if (looks_.sleeve == Sleeve::sleeve) {
       const cv::Vec3f cuff = wrist_ + elbow_side * mm(12);
-      skeleton_.limbs.push_back({cuff, forearm, mm(31), mm(45), hand.nail, 0.85F, 0.5F, linear(looks_.sleeve_tint), 0});
+      skeleton_.clothes.push_back(
+          {cuff, forearm, mm(31), mm(45), hand.nail, 0.85F, 0.5F, linear(looks_.sleeve_tint), 0});
     }
   }
 

@@ -25,6 +25,7 @@ struct HandSkeleton {
   std::vector<FingerEnd> ends;       // index, middle finger if it points, thumb
   std::size_t pointing = 1;          // how many of `ends` point at the screen
   std::vector<Limb> pointing_limbs;  // the visible fingers alone, for a finer mesh
+  std::vector<Limb> clothes;         // around limbs, not blended with them
   Limb ring_finger_segment;          // where a ring would sit
 };
 

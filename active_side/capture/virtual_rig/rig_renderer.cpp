@@ -4,9 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-
-#include "capture/virtual_rig/screen_content.hpp"
-#include "capture/virtual_rig/surroundings.hpp"
+#include <utility>
 
 namespace telehug {
 namespace {
@@ -62,46 +60,21 @@ cv::Rect grown(const cv::Rect& box, int by, const cv::Rect& within) {
   return cv::Rect(box.x - by, box.y - by, box.width + 2 * by, box.height + 2 * by) & within;
 }
 
-cv::Rect box_of_screen(const cv::Mat& surface) {
-  cv::Rect box;
-  for (int v = 0; v < surface.rows; ++v) {
-    const auto* row = surface.ptr<uchar>(v);
-    const uchar* end = row + surface.cols;
-    const uchar* first = std::find(row, end, static_cast<uchar>(Surface::screen));
-    if (first == end) continue;
-    box |= cv::Rect(static_cast<int>(first - row), v, static_cast<int>(end - first), 1);
-  }
-  return box;
-}
-
 }  // namespace
 
 RigRenderer::RigRenderer(const VirtualRigSettings& settings)
     : settings_(settings),
-      camera_(settings.camera, settings.focal_px, settings.image, settings.distortion_k1),
-      lighting_(settings.light),
       development_(settings),
       mirror_blur_(settings.coat.roughness_deg, settings.focal_px, settings.camera.position_mm[2]),
-      raster_({settings.image.width_px, settings.image.height_px}) {
-  show(settings.screen_picture.empty() ? draw_screen_content(settings.content, settings.screen, settings.seed)
-                                       : settings.screen_picture);
-}
+      raster_({settings.image.width_px, settings.image.height_px}),
+      view_(make_view(settings, development_)) {}
 
 void RigRenderer::show(const cv::Mat& picture) {
-  scene_ = render_scene(settings_, camera_, picture);
-  screen_box_ = box_of_screen(scene_.surface);
-  // New ones: a copy of this renderer may still draw with the old ones.
-  cv::Mat light(scene_.own.size(), CV_32FC3);
-  cv::Mat coded;
-  for (int v = 0; v < light.rows; ++v) {
-    for (int u = 0; u < light.cols; ++u)
-      light.at<Light>(v, u) =
-          scene_.own.at<Light>(v, u) + scene_.mirrored.at<Light>(v, u) * scene_.reflectance.at<float>(v, u);
-  }
-  development_.code(light, coded);
-  light_ = light;
-  coded_scene_ = coded;
-  shadow_.emplace(settings_, scene_.surface);
+  view_ = make_view(settings_, picture, development_);
+}
+
+std::shared_ptr<RigView> RigRenderer::view(const VirtualRigSettings& settings) {
+  return make_view(settings, development_);
 }
 
 const HandShape& RigRenderer::shape_of(const HandPose& pose) {
@@ -123,16 +96,16 @@ void RigRenderer::draw(const std::optional<FingerPlace>& finger, std::uint64_t n
 }
 
 void RigRenderer::draw(const std::vector<HandPose>& hands, std::uint64_t noise_index, cv::Mat& bgr) {
-  coded_scene_.copyTo(coded_);
+  view_->coded.copyTo(coded_);
   drawn_.clear();
   seen_.resize(hands.size());
-  shadow_->clear();
+  view_->shadow.clear();
   for (std::size_t i = 0; i < hands.size(); ++i) {
     HandPose pose = hands[i];
     if (!pose.looks) pose.looks = settings_.hand;
     const HandShape& shape = shape_of(pose);
-    light_hand(shape, pose.finger, lighting_, scene_, camera_, seen_[i]);
-    shadow_->add(shape.limbs, shape.place_for(pose.finger), camera_);
+    light_hand(shape, pose.finger, view_->lighting, view_->scene, view_->camera, seen_[i]);
+    view_->shadow.add(shape.limbs, shape.place_for(pose.finger), view_->camera);
   }
   if (!hands.empty()) {
     add_shadows();
@@ -143,16 +116,16 @@ void RigRenderer::draw(const std::vector<HandPose>& hands, std::uint64_t noise_i
     const cv::Rect changed = hand_box | mirror_box;
     if (!changed.empty()) compose(grown(changed, Development::margin_px, picture), hand_box, mirror_box);
   }
-  development_.expose(coded_, development_.exposure_of(noise_index), bgr);
+  development_.expose(coded_, development_.exposure_of(coded_, noise_index), bgr);
   development_.add_noise(noise_index, bgr);
   development_.compress(bgr);
 }
 
 cv::Rect RigRenderer::raster(bool mirrored, cv::Mat& image, cv::Mat& height_mm) {
   const auto vertices = mirrored ? &SeenHand::mirrored : &SeenHand::direct;
-  cv::Rect box = box_of(seen_, vertices, mirrored ? screen_box_ : cv::Rect({0, 0}, coded_.size()));
+  cv::Rect box = box_of(seen_, vertices, mirrored ? view_->screen_box : cv::Rect({0, 0}, coded_.size()));
   if (box.empty()) return {};
-  if (mirrored) box = grown(box, mirror_blur_.reach_px(), screen_box_);
+  if (mirrored) box = grown(box, mirror_blur_.reach_px(), view_->screen_box);
   raster_.begin(box);
   triangles_.clear();
   for (std::size_t i = 0; i < seen_.size(); ++i) {
@@ -178,7 +151,7 @@ cv::Rect RigRenderer::raster(bool mirrored, cv::Mat& image, cv::Mat& height_mm) 
 }
 
 void RigRenderer::add_shadows() {
-  shadow_box_ = shadow_->finish(shadow_factor_);
+  shadow_box_ = view_->shadow.finish(shadow_factor_);
   for (int v = 0; v < shadow_box_.height; ++v) {
     const float* factor = shadow_factor_.ptr<float>(v);
     auto* row = coded_.ptr<cv::Vec3w>(v + shadow_box_.y) + shadow_box_.x;
@@ -194,7 +167,7 @@ void RigRenderer::add_shadows() {
 // Light of a box, from back to front, with what lies around it for the lens' blur.
 void RigRenderer::compose(const cv::Rect& box, const cv::Rect& hand_box, const cv::Rect& mirror_box) {
   const cv::Rect around = grown(box, Development::margin_px, {{0, 0}, coded_.size()});
-  light_(around).copyTo(composed_);
+  view_->light(around).copyTo(composed_);
   const cv::Rect shaded = around & shadow_box_;
   for (int v = shaded.y; v < shaded.y + shaded.height; ++v) {
     const float* factor = shadow_factor_.ptr<float>(v - shadow_box_.y) - shadow_box_.x;
@@ -204,8 +177,8 @@ void RigRenderer::compose(const cv::Rect& box, const cv::Rect& hand_box, const c
   }
   for (int v = mirror_box.y; v < mirror_box.y + mirror_box.height; ++v) {
     const auto* image = mirror_image_.ptr<cv::Vec4f>(v - mirror_box.y) - mirror_box.x;
-    const float* reflectance = scene_.reflectance.ptr<float>(v);
-    const Light* behind = scene_.mirrored.ptr<Light>(v);
+    const float* reflectance = view_->scene.reflectance.ptr<float>(v);
+    const Light* behind = view_->scene.mirrored.ptr<Light>(v);
     Light* row = composed_.ptr<Light>(v - around.y) - around.x;
     for (int u = mirror_box.x; u < mirror_box.x + mirror_box.width; ++u) {
       const cv::Vec4f& seen = image[u];

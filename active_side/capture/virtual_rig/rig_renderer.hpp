@@ -11,11 +11,10 @@
 #include "capture/virtual_rig/development.hpp"
 #include "capture/virtual_rig/hand_pose.hpp"
 #include "capture/virtual_rig/hand_shading.hpp"
-#include "capture/virtual_rig/hand_shadow.hpp"
 #include "capture/virtual_rig/mesh_raster.hpp"
 #include "capture/virtual_rig/mirror_blur.hpp"
 #include "capture/virtual_rig/pinhole_camera.hpp"
-#include "capture/virtual_rig/rig_scene.hpp"
+#include "capture/virtual_rig/rig_view.hpp"
 #include "capture/virtual_rig/settings.hpp"
 
 namespace telehug {
@@ -29,13 +28,19 @@ class RigRenderer {
   // Shows another picture on the screen (CV_8UC3; renders the scene anew, some 100 ms).
   void show(const cv::Mat& picture);
 
+  // The same in two steps, for views that are wanted again: other screen pictures, light or places of the camera. Lens,
+  // sensor, coat and size are those of this renderer's settings.
+  [[nodiscard]] std::shared_ptr<RigView> view(const VirtualRigSettings& settings);
+  [[nodiscard]] std::shared_ptr<RigView> view() const { return view_; }
+  void show(std::shared_ptr<RigView> view) { view_ = std::move(view); }
+
   // No hands: nobody there. The same `noise_index` gives the same noise and exposure.
   void draw(const std::vector<HandPose>& hands, std::uint64_t noise_index, cv::Mat& bgr);
 
   // One hand in its usual pose, or nobody.
   void draw(const std::optional<FingerPlace>& finger, std::uint64_t noise_index, cv::Mat& bgr);
 
-  [[nodiscard]] const PinholeCamera& camera() const noexcept { return camera_; }
+  [[nodiscard]] const PinholeCamera& camera() const noexcept { return view_->camera; }
 
  private:
   struct KnownShape {
@@ -49,16 +54,10 @@ class RigRenderer {
   void compose(const cv::Rect& box, const cv::Rect& hand_box, const cv::Rect& mirror_box);
 
   VirtualRigSettings settings_;
-  PinholeCamera camera_;
-  RoomLighting lighting_;
   Development development_;
   MirrorBlur mirror_blur_;
   MeshRaster raster_;
-  RigScene scene_;
-  cv::Rect screen_box_;  // the part of the picture where the screen is
-  cv::Mat light_;        // of the scene with what the screen mirrors, CV_32FC3
-  cv::Mat coded_scene_;  // the same, coded
-  std::optional<HandShadow> shadow_;
+  std::shared_ptr<RigView> view_;
   std::vector<std::shared_ptr<const KnownShape>> shapes_;  // the newest last
 
   // Of the picture that is being drawn.

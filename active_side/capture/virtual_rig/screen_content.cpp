@@ -53,9 +53,11 @@ class Painter {
         const float shape = fractal_noise(x, y, seed);
         const float side = shape > 0.5F ? static_cast<float>(edges) : 0.0F;
         auto& pixel = small.at<cv::Vec3b>(row, column);
+        const float common = fractal_noise(x * 0.7F, y * 0.7F + 57, seed + 31);
         for (int c = 0; c < 3; ++c) {
           const float tone = fractal_noise(x * 0.6F + 31, y * 0.6F, seed + 11 + static_cast<std::uint64_t>(c));
-          pixel[c] = cv::saturate_cast<uchar>(255 * (0.2F + 1.5F * (tone - 0.35F) + side * (shape - 0.35F)));
+          const float coloured = common + 0.45F * (tone - common);
+          pixel[c] = cv::saturate_cast<uchar>(255 * (0.35F + 2.0F * (coloured - 0.45F) + side * (shape - 0.35F)));
         }
       }
     }

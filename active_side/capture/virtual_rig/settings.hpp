@@ -5,6 +5,7 @@
 #include <opencv2/core/mat.hpp>
 #include <vector>
 
+#include "capture/virtual_rig/disturbance.hpp"
 #include "capture/virtual_rig/hand_looks.hpp"
 #include "capture/virtual_rig/pinhole_camera.hpp"
 #include "capture/virtual_rig/touch_script.hpp"
@@ -49,6 +50,8 @@ struct DeskLooks {
 // What lens and electronics make of the light.
 struct SensorLooks {
   double exposure = 1;         // 1: a lit white sheet is white
+  double auto_exposure = 0;    // 0: none; 1: every picture is as bright as `target_tone` on average
+  double target_tone = 110;    // 0 to 255
   double exposure_spread = 0;  // standard deviation of its logarithm from picture to picture
   double blur_px = 0.8;        // standard deviation of the lens' blur
   double sharpening = 0;       // webcams: 0.3 to 1.5 times what a blur of 1 px takes away is added
@@ -80,6 +83,7 @@ struct VirtualRigSettings {
   double screen_luminance = 0.75;  // of white on the screen, seen at the grazing angle of the camera, linear
   cv::Mat screen_picture;          // CV_8UC3, shown over the whole screen; empty: `content`
   TouchScript script;              // empty: default_script(screen)
+  std::vector<Disturbance> disturbances;
 };
 
 }  // namespace telehug
