@@ -3,7 +3,10 @@
 
 #include <fmt/format.h>
 
+#include <charconv>
+
 #include "capture/recording.hpp"
+#include "capture/virtual_rig/random_rig.hpp"
 #include "capture/virtual_rig/virtual_rig.hpp"
 #include "capture/webcam.hpp"
 #include "capture/webcam_device.hpp"
@@ -26,14 +29,24 @@ std::unique_ptr<FrameSource> recording(std::string_view place, const CaptureSett
   return std::make_unique<Recording>(std::move(recorded), clock);
 }
 
-Result<std::unique_ptr<FrameSource>> virtual_rig(const CaptureSettings& settings, const Clock& clock) {
-  VirtualRigSettings rig = settings.virtual_rig;
+Result<std::unique_ptr<FrameSource>> virtual_rig(VirtualRigSettings rig, const CaptureSettings& settings,
+                                                 const Clock& clock) {
   rig.real_time = settings.real_time;
   if (const Status checked = check_virtual_rig(rig); !checked) return checked.error();
   return std::unique_ptr<FrameSource>(std::make_unique<VirtualRig>(std::move(rig), clock));
 }
 
 }  // namespace
+
+std::optional<std::uint64_t> virtual_rig_seed(std::string_view spec) {
+  constexpr std::string_view prefix = "virtual:";
+  if (!spec.starts_with(prefix)) return std::nullopt;
+  spec.remove_prefix(prefix.size());
+  std::uint32_t seed = 0;
+  const auto [end, error] = std::from_chars(spec.data(), spec.data() + spec.size(), seed);
+  if (error != std::errc() || end != spec.data() + spec.size()) return std::nullopt;
+  return seed;
+}
 
 Result<std::unique_ptr<FrameSource>> make_frame_source(std::string_view spec, const CaptureSettings& settings,
                                                        const Clock& clock) {
@@ -42,10 +55,11 @@ Result<std::unique_ptr<FrameSource>> make_frame_source(std::string_view spec, co
   const std::string_view rest = colon == std::string_view::npos ? std::string_view{} : spec.substr(colon + 1);
   if (kind == "webcam") return webcam(std::string(rest), settings, clock);
   if (kind == "replay" && !rest.empty()) return recording(rest, settings, clock);
-  if (spec == "virtual") return virtual_rig(settings, clock);
+  if (spec == "virtual") return virtual_rig(settings.virtual_rig, settings, clock);
+  if (const auto seed = virtual_rig_seed(spec)) return virtual_rig(random_rig(*seed).settings, settings, clock);
   return Error{
       fmt::format("'{}' is no source of pictures; sources are webcam, webcam:DEVICE, replay:DIR, "
-                  "replay:DIR?PART (frames, hard or sequence) and virtual",
+                  "replay:DIR?PART (frames, hard or sequence), virtual and virtual:SEED (a whole number)",
                   spec)};
 }
 

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -22,12 +24,16 @@ struct CaptureSettings {
   VirtualRigSettings virtual_rig;  // its real_time is overridden by the one above
 };
 
+// The number of "virtual:SEED".
+std::optional<std::uint64_t> virtual_rig_seed(std::string_view spec);
+
 // The source that `spec` names:
 //   webcam               settings.device
 //   webcam:DEVICE        e.g. webcam:/dev/v4l/by-id/usb-...-video-index0
 //   replay:DIR           a recording (see rig_directory.hpp) or a folder of pictures
 //   replay:DIR?PART      its part "frames", "hard" or "sequence"
 //   virtual              the virtual rig
+//   virtual:SEED         another one, drawn at random; the same for the same number (0 to 4294967295)
 // It is not open yet. Only a spec or settings that make no sense are errors here. `clock` must outlive the source.
 Result<std::unique_ptr<FrameSource>> make_frame_source(std::string_view spec, const CaptureSettings& settings,
                                                        const Clock& clock);

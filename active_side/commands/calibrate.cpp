@@ -69,17 +69,20 @@ Result<Calibration> from_recording(const std::filesystem::path& folder, const st
   return calibrate_from_recording(*rig, model, frames, utc_now());
 }
 
-Result<Calibration> from_virtual_rig(const VirtualRigSettings& settings, const std::string& model,
-                                     const std::vector<int>& frames) {
+Result<Calibration> from_virtual_rig(const std::string& source, const VirtualRigSettings& usual,
+                                     const std::string& model, const std::vector<int>& frames) {
   const ScratchFolder scratch;
   // The default model's: with those far to the left and right. Rendering more takes its time and gains little.
   const int all = model == "thesis" ? 2 : 6;
   const int touches = frames.empty() ? all : *std::max_element(frames.begin(), frames.end());
-  const Status exported = export_rig_directory(
-      settings, scratch.path(), {.calibration_touches = touches, .sequence_frames = 0, .single_frames = 0});
+  const ExportSettings calibration_only{
+      .calibration_touches = touches, .sequence_frames = 0, .single_frames = 0, .hard_frames = 0};
+  const auto seed = virtual_rig_seed(source);
+  const Status exported = seed ? export_rig_directory(random_rig(*seed), scratch.path(), calibration_only)
+                               : export_rig_directory(usual, scratch.path(), calibration_only);
   if (!exported) return exported.error();
   auto calibration = from_recording(scratch.path(), model, frames);
-  if (calibration) calibration->camera = "virtual";
+  if (calibration) calibration->camera = source;
   return calibration;
 }
 
@@ -93,7 +96,7 @@ Result<Calibration> calibrate(const Options& options, const ActiveConfig& config
     case CameraSourceKind::recording:
       return from_recording(source->folder.substr(0, source->folder.find('?')), model, options.frames);
     case CameraSourceKind::virtual_rig:
-      return from_virtual_rig(capture.virtual_rig, model, options.frames);
+      return from_virtual_rig(spec, capture.virtual_rig, model, options.frames);
     case CameraSourceKind::webcam:
       break;
   }
@@ -172,7 +175,8 @@ void add_calibrate(CLI::App& app, ExitCode& result) {
   auto options = std::make_shared<Options>();
   CLI::App* command = app.add_subcommand("calibrate", "Learn where the camera stands, from touches of known points");
   add_config_options(*command, options->config);
-  command->add_option("--source", options->source, "webcam (asks for the touches), replay:DIR or virtual");
+  command->add_option("--source", options->source,
+                      "webcam (asks for the touches), replay:DIR, virtual or virtual:SEED");
   command->add_option("--out", options->out, "The calibration file; else where `run` looks for it");
   command->add_option("--frames", options->frames, "replay: and virtual: which calibration pictures, e.g. 1,2")
       ->delimiter(',');

@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "calibration/calibration_file.hpp"
+#include "capture/virtual_rig/export_rig.hpp"
 #include "commands/config_options.hpp"
 #include "config/places.hpp"
 #include "pictures/jpeg_encoder.hpp"
@@ -20,6 +21,8 @@ struct Options {
   std::string source;
   std::string folder;
   double seconds = 10;
+  int frames = 25;  // of a virtual rig
+  int hard = 6;
 };
 
 Status write_bytes(const std::filesystem::path& path, const std::vector<std::uint8_t>& bytes) {
@@ -69,21 +72,40 @@ Result<int> record(FrameSource& camera, const Options& options, Signals& signals
   return count;
 }
 
+// A virtual rig knows the truth and need not wait for the clock: it is written with its calibration, single frames and
+// a sequence of that many seconds.
+ExitCode export_virtual_rig(const std::string& source, const Options& options) {
+  const auto seed = virtual_rig_seed(source);
+  if (source != "virtual" && !seed) return fail(ExitCode::config, Error{"\"" + source + "\" names no virtual rig"});
+  RandomRig rig = seed ? random_rig(*seed) : rig_of(VirtualRigSettings{});
+  const ExportSettings settings{.calibration_touches = 9,
+                                .sequence_frames = static_cast<int>(options.seconds * rig.settings.fps),
+                                .single_frames = options.frames,
+                                .hard_frames = options.hard};
+  if (const Status written = export_rig_directory(rig, options.folder, settings); !written) {
+    return fail(ExitCode::device, written.error());
+  }
+  fmt::print("wrote {} with its truth to {}; measure with `telehug-active eval touch {} --out FILE.csv`\n", source,
+             options.folder, options.folder);
+  return ExitCode::ok;
+}
+
 ExitCode run(const Options& options) {
   Signals signals;
   const auto config = load_config(options.config);
   if (!config) return fail(ExitCode::config, config.error());
+  const std::string source = options.source.empty() ? config->camera.source : options.source;
   std::error_code problem;
   if (std::filesystem::exists(std::filesystem::path(options.folder) / "sequence")) {
     return fail(ExitCode::device, Error{options.folder + " holds a recording already; choose another folder"});
   }
+  if (source.starts_with("virtual")) return export_virtual_rig(source, options);
   std::filesystem::create_directories(std::filesystem::path(options.folder) / "sequence", problem);
   if (problem) return fail(ExitCode::device, Error{options.folder + ": " + problem.message()});
   if (auto written = write_rig_toml(options.folder, *config); !written) return fail(ExitCode::device, written.error());
 
   const SteadyClock clock;
-  auto camera = make_frame_source(options.source.empty() ? config->camera.source : options.source,
-                                  capture_settings(*config), clock);
+  auto camera = make_frame_source(source, capture_settings(*config), clock);
   if (!camera) return fail(ExitCode::config, camera.error());
   if (const Status opened = (*camera)->open(); !opened) return fail(ExitCode::device, opened.error());
   fmt::print("recording {} to {} for {:.0f} s; these are pictures of your desk and hands\n", (*camera)->name(),
@@ -100,9 +122,16 @@ void add_record(CLI::App& app, ExitCode& result) {
   auto options = std::make_shared<Options>();
   CLI::App* command = app.add_subcommand("record", "Keep what the camera sees, to be replayed or evaluated");
   command->add_option("folder", options->folder, "Where to")->required()->type_name("DIR");
-  command->add_option("--source", options->source, "Instead of the configured camera: webcam, replay:DIR or virtual");
+  command->add_option("--source", options->source,
+                      "Instead of the configured camera: webcam, replay:DIR, virtual or virtual:SEED");
   command->add_option("--seconds", options->seconds, "How long; Ctrl-C ends it earlier")
-      ->check(CLI::Range(0.1, 3600.0))
+      ->check(CLI::Range(0.0, 3600.0))
+      ->capture_default_str();
+  command->add_option("--frames", options->frames, "Virtual rigs: how many single pictures")
+      ->check(CLI::Range(0, 100000))
+      ->capture_default_str();
+  command->add_option("--hard", options->hard, "Virtual rigs: how many pictures with two fingers or two hands")
+      ->check(CLI::Range(0, 100000))
       ->capture_default_str();
   add_config_options(*command, options->config);
   command->callback([options, &result] { result = run(*options); });

@@ -43,7 +43,8 @@ void add_run(CLI::App& app, ExitCode& result) {
   auto options = std::make_shared<Options>();
   CLI::App* command = app.add_subcommand("run", "See touches and send them, until SIGTERM (this is the daemon)");
   add_config_options(*command, options->config);
-  command->add_option("--source", options->source, "Instead of the configured camera: webcam, replay:DIR or virtual");
+  command->add_option("--source", options->source,
+                      "Instead of the configured camera: webcam, replay:DIR, virtual or virtual:SEED");
   command->add_flag("--loop", options->loop, "Begin a recording again when it is over");
   command->callback([options, &result] { result = run(*options); });
 }

@@ -19,8 +19,13 @@ std::optional<std::string> after(std::string_view scheme, std::string_view text)
 Result<CameraSource> parse_camera_source(std::string_view text) {
   if (text == "webcam") return CameraSource{CameraSourceKind::webcam, {}};
   if (text == "virtual") return CameraSource{CameraSourceKind::virtual_rig, {}};
+  if (const auto seed = after("virtual:", text);
+      seed && seed->size() <= 9 && seed->find_first_not_of("0123456789") == std::string::npos) {
+    return CameraSource{CameraSourceKind::virtual_rig, {}};
+  }
   if (auto folder = after("replay:", text)) return CameraSource{CameraSourceKind::recording, *folder};
-  return Error{fmt::format("\"{}\" is not a camera source: it is \"webcam\", \"replay:DIR\" or \"virtual\"", text)};
+  return Error{fmt::format(
+      "\"{}\" is not a camera source: it is \"webcam\", \"replay:DIR\", \"virtual\" or \"virtual:SEED\"", text)};
 }
 
 Result<JacketLinkChoice> parse_jacket_link(std::string_view text) {

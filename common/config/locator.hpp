@@ -17,7 +17,7 @@ struct CameraSource {
   std::string folder;  // of a recording
 };
 
-// "webcam", "replay:DIR" or "virtual".
+// "webcam", "replay:DIR", "virtual" or "virtual:SEED" (up to 9 digits).
 [[nodiscard]] Result<CameraSource> parse_camera_source(std::string_view text);
 
 enum class JacketLinkKind { serial, simulated, recorded };

@@ -3,19 +3,25 @@
 
 #include <filesystem>
 
-#include "capture/virtual_rig/virtual_rig.hpp"
+#include "capture/virtual_rig/random_rig.hpp"
+#include "common/result.hpp"
 
 namespace telehug {
 
 struct ExportSettings {
   int calibration_touches = 9;  // of calibration_points(), from the first on
   int sequence_frames = 120;    // how much of the script, from its beginning, becomes `sequence`; 0: none
-  int single_frames = 12;       // random touches, hovering fingers and empty pictures that become `frames`; 0: none
+  int single_frames = 12;  // random touches, hovering fingers, distant hands and empty pictures in `frames`; 0: none
+  int hard_frames = 4;     // random touches of two fingers or two hands in `hard`; 0: none
 };
 
 // Writes a recording of a virtual rig (layout: rig_directory.hpp) with its truth: rig.toml, background, triangle,
-// calibration, frames, sequence, times.csv. The folder may exist; files of the same names are replaced.
+// calibration, frames, hard, sequence, times.csv. The folder may exist; files of the same names are replaced.
 Status export_rig_directory(const VirtualRigSettings& rig, const std::filesystem::path& path,
+                            const ExportSettings& settings = {});
+
+// The same with the rig's users and screen contents in turn; its groups go into rig.toml.
+Status export_rig_directory(const RandomRig& rig, const std::filesystem::path& path,
                             const ExportSettings& settings = {});
 
 }  // namespace telehug

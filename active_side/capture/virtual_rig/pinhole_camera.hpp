@@ -20,12 +20,14 @@ struct CameraPose {
   double roll_deg = 0;   // > 0: the picture turns clockwise
 };
 
-// A pinhole camera without distortion. For a point of the screen and a camera without angles it gives
+// A pinhole camera whose lens distorts radially: a point that a perfect lens would show at x_u from the picture's
+// centre, measured in focal lengths, is at x_d = x_u (1 + k1 |x_u|^2); k1 < 0 is a barrel. Without angles and
+// distortion a point of the screen is at
 //   u = u0 - f (x - x0) / (y - y0),   v = v0 + f z0 / (y - y0)
 // with (x0, y0, z0) the camera's place: the picture is the user's view mirrored left to right.
 class PinholeCamera {
  public:
-  PinholeCamera(const CameraPose& pose, double focal_px, ImageSize size);
+  PinholeCamera(const CameraPose& pose, double focal_px, ImageSize size, double distortion_k1 = 0);
 
   // Only for points in front of the camera: depth_mm() > 0.
   [[nodiscard]] ImagePoint project(const RigPoint& point) const;
@@ -33,7 +35,7 @@ class PinholeCamera {
   // Distance of a point from the camera along its optical axis.
   [[nodiscard]] double depth_mm(const RigPoint& point) const { return in_camera(point)[2]; }
 
-  // Direction, not normalised, in which a pixel looks. It is linear in u and v.
+  // Direction, not normalised, in which a pixel looks; its part along the optical axis is 1.
   [[nodiscard]] RigPoint ray(double u_px, double v_px) const;
 
   [[nodiscard]] const RigPoint& position_mm() const noexcept { return position_mm_; }
@@ -47,6 +49,8 @@ class PinholeCamera {
   cv::Matx33d camera_of_rig_;  // camera frame: u right, v down, w along the optical axis
   double focal_px_;
   ImageSize size_;
+  double k1_;
+  double largest_r2_;  // beyond this |x_u|^2, well outside the picture, the lens is taken to distort no further
   double u0_px_;
   double v0_px_;
 };

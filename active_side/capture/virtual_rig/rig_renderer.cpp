@@ -2,167 +2,203 @@
 #include "capture/virtual_rig/rig_renderer.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
-#include <opencv2/imgproc.hpp>
+#include <utility>
 
 namespace telehug {
 namespace {
 
-// Blue, green, red of the skin in full light, Fitzpatrick I to VI.
-const std::array<cv::Vec3d, 6> skin_colours{cv::Vec3d{184, 204, 238}, cv::Vec3d{142, 174, 224},
-                                            cv::Vec3d{116, 152, 206}, cv::Vec3d{84, 118, 172},
-                                            cv::Vec3d{58, 84, 128},   cv::Vec3d{44, 58, 88}};
+constexpr std::size_t shapes_kept = 4;
 
-// Skin is lit from all sides and a little more from above and in front.
-const cv::Vec3d towards_light{0.15, -0.83, 0.53};
-constexpr double ambient = 0.78;
-constexpr double directed = 0.22;
+bool same_looks(const HandLooks& a, const HandLooks& b) {
+  return a.left == b.left && a.skin_tone == b.skin_tone && a.finger_width_mm == b.finger_width_mm &&
+         a.nail_mm == b.nail_mm && a.polish == b.polish && a.ring == b.ring && a.sleeve == b.sleeve &&
+         a.sleeve_tint == b.sleeve_tint;
+}
 
-// A coat scatters: the mirror image of what is further away is fainter.
-constexpr double mirror_range_mm = 60;
-
-constexpr int noise_shift_px = 64;
-const cv::Size blur_size{3, 3};
-
-cv::Mat dark_gradient() {
-  cv::Mat picture(16, 1, CV_8UC3);
-  for (int row = 0; row < picture.rows; ++row) {
-    const int level = 16 + 2 * row;
-    picture.at<cv::Vec3b>(row, 0) = {cv::saturate_cast<uchar>(level + 14), cv::saturate_cast<uchar>(level + 4),
-                                     cv::saturate_cast<uchar>(level)};
+// Whether two poses differ in their place only.
+bool same_shape(const HandPose& a, const HandPose& b) {
+  if (a.second.has_value() != b.second.has_value()) return false;
+  if (a.second) {
+    const auto apart = [](const HandPose& pose) {
+      return cv::Vec3d(pose.second->foot.x_mm - pose.finger.foot.x_mm, pose.second->foot.y_mm - pose.finger.foot.y_mm,
+                       pose.second->hover_mm - pose.finger.hover_mm);
+    };
+    const bool same_contacts =
+        (a.second->hover_mm > 0) == (b.second->hover_mm > 0) && (a.finger.hover_mm > 0) == (b.finger.hover_mm > 0);
+    if (!same_contacts || cv::norm(apart(a) - apart(b)) > 0.01) return false;
   }
-  return picture;
+  return a.approach_deg == b.approach_deg && a.lean_deg == b.lean_deg && a.turn_deg == b.turn_deg &&
+         a.bend_deg == b.bend_deg && a.press_mm == b.press_mm && same_looks(*a.looks, *b.looks);
 }
 
-RoundCone mirrored_in_screen(RoundCone cone) {
-  cone.a[2] = -cone.a[2];
-  cone.b[2] = -cone.b[2];
-  return cone;
+// The pixels of all triangles, and some for the outlines' blur.
+cv::Rect box_of(const std::vector<SeenHand>& hands, std::vector<RasterVertex> SeenHand::*vertices,
+                const cv::Rect& within) {
+  constexpr float far = 1e5F;
+  float left = far;
+  float top = far;
+  float right = -far;
+  float bottom = -far;
+  for (const SeenHand& hand : hands) {
+    for (const RasterVertex& vertex : hand.*vertices) {
+      if (vertex.depth_mm <= 1) continue;
+      left = std::min(left, vertex.u_px);
+      right = std::max(right, vertex.u_px);
+      top = std::min(top, vertex.v_px);
+      bottom = std::max(bottom, vertex.v_px);
+    }
+  }
+  if (left > right) return {};
+  const auto low = [far](float x) { return static_cast<int>(std::max(x, -far)) - 2; };
+  const auto high = [far](float x) { return static_cast<int>(std::min(x, far)) + 3; };
+  return cv::Rect(cv::Point(low(left), low(top)), cv::Point(high(right), high(bottom))) & within;
 }
 
-cv::Mat half_noise(cv::RNG& generator, cv::Size size, double sd) {
-  cv::Mat noise(size, CV_8UC3);
-  generator.fill(noise, cv::RNG::NORMAL, 0, sd);  // what is below 0 becomes 0
-  return noise;
+cv::Rect grown(const cv::Rect& box, int by, const cv::Rect& within) {
+  return cv::Rect(box.x - by, box.y - by, box.width + 2 * by, box.height + 2 * by) & within;
 }
 
 }  // namespace
 
 RigRenderer::RigRenderer(const VirtualRigSettings& settings)
-    : settings_(settings), camera_(settings.camera, settings.focal_px, settings.image) {
-  const cv::Size size(settings.image.width_px, settings.image.height_px);
-  sharp_.create(size, CV_8UC3);
-  nearest_t_.create(size, CV_32FC1);
-  show(settings.screen_picture.empty() ? dark_gradient() : settings.screen_picture);
-  // Each of the two is half of a normal distribution; their difference has mean 0 and about this deviation.
-  cv::RNG generator(settings.seed + 0x9E3779B97F4A7C15ULL);
-  const cv::Size larger = size + cv::Size(noise_shift_px, noise_shift_px);
-  brighter_ = half_noise(generator, larger, settings.noise_sd * 1.2);
-  darker_ = half_noise(generator, larger, settings.noise_sd * 1.2);
-}
+    : settings_(settings),
+      development_(settings),
+      mirror_blur_(settings.coat.roughness_deg, settings.focal_px, settings.camera.position_mm[2]),
+      raster_({settings.image.width_px, settings.image.height_px}),
+      view_(make_view(settings, development_)) {}
 
 void RigRenderer::show(const cv::Mat& picture) {
-  scene_ = render_scene(settings_, camera_, picture);
-  cv::Mat blurred;  // a new one: a copy of this renderer may still draw with the old one
-  cv::GaussianBlur(scene_.picture, blurred, blur_size, 0);
-  blurred_scene_ = blurred;
+  view_ = make_view(settings_, picture, development_);
+}
+
+std::shared_ptr<RigView> RigRenderer::view(const VirtualRigSettings& settings) {
+  return make_view(settings, development_);
+}
+
+const HandShape& RigRenderer::shape_of(const HandPose& pose) {
+  for (const auto& known : shapes_) {
+    if (!same_shape(known->pose, pose)) continue;
+    drawn_.push_back(known);
+    return known->shape;
+  }
+  if (shapes_.size() >= shapes_kept) shapes_.erase(shapes_.begin());
+  shapes_.push_back(std::make_shared<const KnownShape>(KnownShape{pose, hand_shape(pose, *pose.looks)}));
+  drawn_.push_back(shapes_.back());
+  return shapes_.back()->shape;
 }
 
 void RigRenderer::draw(const std::optional<FingerPlace>& finger, std::uint64_t noise_index, cv::Mat& bgr) {
-  draw_without_noise(finger, bgr);
-  if (settings_.noise_sd > 0) add_noise(noise_index, bgr);
+  std::vector<HandPose> hands;
+  if (finger) hands.emplace_back().finger = *finger;
+  draw(hands, noise_index, bgr);
 }
 
-void RigRenderer::draw_without_noise(const std::optional<FingerPlace>& finger, cv::Mat& bgr) {
-  blurred_scene_.copyTo(bgr);
-  if (!finger) return;
-  const Hand hand = hand_at(*finger);
-  const cv::Rect picture({0, 0}, bgr.size());
-  drawn_ = {};
-  for (const RoundCone& cone : hand) {
-    drawn_ |= box_of(cone);
-    if (settings_.mirror > 0) drawn_ |= box_of(mirrored_in_screen(cone));
+void RigRenderer::draw(const std::vector<HandPose>& hands, std::uint64_t noise_index, cv::Mat& bgr) {
+  view_->coded.copyTo(coded_);
+  drawn_.clear();
+  seen_.resize(hands.size());
+  view_->shadow.clear();
+  for (std::size_t i = 0; i < hands.size(); ++i) {
+    HandPose pose = hands[i];
+    if (!pose.looks) pose.looks = settings_.hand;
+    const HandShape& shape = shape_of(pose);
+    light_hand(shape, pose.finger, view_->lighting, view_->scene, view_->camera, seen_[i]);
+    view_->shadow.add(shape.limbs, shape.place_for(pose.finger), view_->camera);
   }
-  if (drawn_.empty()) return;
-  scene_.picture(drawn_).copyTo(sharp_(drawn_));
-  nearest_t_(drawn_) = std::numeric_limits<float>::max();
-  if (settings_.mirror > 0) {
-    draw_hand(hand, true);
-    nearest_t_(drawn_) = std::numeric_limits<float>::max();
+  if (!hands.empty()) {
+    add_shadows();
+    const cv::Rect picture({0, 0}, coded_.size());
+    const cv::Rect hand_box = raster(false, hand_image_, heights_);
+    const cv::Rect mirror_box = settings_.coat.mirror > 0 ? raster(true, mirror_image_, heights_) : cv::Rect();
+    if (!mirror_box.empty()) mirror_blur_.apply(mirror_image_, heights_);
+    const cv::Rect changed = hand_box | mirror_box;
+    if (!changed.empty()) compose(grown(changed, Development::margin_px, picture), hand_box, mirror_box);
   }
-  draw_hand(hand, false);
-  // The blur looks one pixel beyond what it writes, and the hand stays one pixel inside the box.
-  cv::Mat target = bgr(drawn_);
-  cv::GaussianBlur(sharp_(drawn_), target, blur_size, 0, 0, cv::BORDER_REPLICATE | cv::BORDER_ISOLATED);
+  development_.expose(coded_, development_.exposure_of(coded_, noise_index), bgr);
+  development_.add_noise(noise_index, bgr);
+  development_.compress(bgr);
 }
 
-void RigRenderer::draw_hand(const Hand& hand, bool mirrored) {
-  for (const RoundCone& cone : hand)
-    draw_cone(mirrored ? mirrored_in_screen(cone) : cone, mirrored);
-}
-
-void RigRenderer::draw_cone(const RoundCone& cone, bool mirrored) {
-  const cv::Rect box = box_of(cone);
-  const RoundConeCaster caster(cone, camera_.position_mm());
-  const cv::Vec3d& skin = skin_colours[static_cast<std::size_t>(settings_.skin_tone - 1)];
-  const RigPoint one_right = camera_.ray(1, 0) - camera_.ray(0, 0);
-  for (int v = box.y; v < box.y + box.height; ++v) {
-    RigPoint ray = camera_.ray(box.x, v);
-    for (int u = box.x; u < box.x + box.width; ++u, ray += one_right) {
-      if (mirrored && scene_.is_screen.at<uchar>(v, u) == 0) continue;
-      const auto hit = caster.cast(ray);
-      auto& nearest_t = nearest_t_.at<float>(v, u);
-      if (!hit || hit->t >= static_cast<double>(nearest_t)) continue;
-      nearest_t = static_cast<float>(hit->t);
-      RigPoint normal = hit->normal;
-      if (mirrored) normal[2] = -normal[2];
-      cv::Vec3d colour = skin * (ambient + directed * normal.dot(towards_light));
-      if (mirrored) {
-        const double behind_screen_mm = -(camera_.position_mm()[2] + hit->t * ray[2]);
-        colour = colour * (settings_.mirror * std::exp(-behind_screen_mm / mirror_range_mm)) +
-                 cv::Vec3d(scene_.unmirrored.at<cv::Vec3b>(v, u));
+cv::Rect RigRenderer::raster(bool mirrored, cv::Mat& image, cv::Mat& height_mm) {
+  const auto vertices = mirrored ? &SeenHand::mirrored : &SeenHand::direct;
+  cv::Rect box = box_of(seen_, vertices, mirrored ? view_->screen_box : cv::Rect({0, 0}, coded_.size()));
+  if (box.empty()) return {};
+  if (mirrored) box = grown(box, mirror_blur_.reach_px(), view_->screen_box);
+  raster_.begin(box);
+  triangles_.clear();
+  for (std::size_t i = 0; i < seen_.size(); ++i) {
+    const std::vector<RasterVertex>& seen = seen_[i].*vertices;
+    for (const MeshTriangle& triangle : drawn_[i]->shape.mesh.triangles) {
+      const RasterVertex& a = seen[triangle.corners[0]];
+      const RasterVertex& b = seen[triangle.corners[1]];
+      const RasterVertex& c = seen[triangle.corners[2]];
+      if (!(a.depth_mm > 1 && b.depth_mm > 1 && c.depth_mm > 1)) continue;
+      if (!triangle.two_sided) {
+        const float area = (b.u_px - a.u_px) * (c.v_px - a.v_px) - (c.u_px - a.u_px) * (b.v_px - a.v_px);
+        if (mirrored ? area >= 0 : area <= 0) continue;  // seen from behind
       }
-      sharp_.at<cv::Vec3b>(v, u) = {cv::saturate_cast<uchar>(colour[0]), cv::saturate_cast<uchar>(colour[1]),
-                                    cv::saturate_cast<uchar>(colour[2])};
+      triangles_.push_back({&a, &b, &c});
+      raster_.draw(a, b, c);
+    }
+  }
+  raster_.find_outlines();
+  for (const auto& [a, b, c] : triangles_)
+    raster_.cover_outlines(*a, *b, *c);
+  raster_.finish(image, height_mm);
+  return box;
+}
+
+void RigRenderer::add_shadows() {
+  shadow_box_ = view_->shadow.finish(shadow_factor_);
+  for (int v = 0; v < shadow_box_.height; ++v) {
+    const float* factor = shadow_factor_.ptr<float>(v);
+    auto* row = coded_.ptr<cv::Vec3w>(v + shadow_box_.y) + shadow_box_.x;
+    for (int u = 0; u < shadow_box_.width; ++u) {
+      if (factor[u] > 0.999F) continue;
+      const float darker = std::sqrt(factor[u]);  // coded pictures hold the root of the light
+      for (int c = 0; c < 3; ++c)
+        row[u][c] = static_cast<std::uint16_t>(static_cast<float>(row[u][c]) * darker);
     }
   }
 }
 
-// The pixels where a cone may be seen, and a margin for the blur; a ball's image is up to 1 / cos of its angle from the
-// axis longer than its radius says.
-cv::Rect RigRenderer::box_of(const RoundCone& cone) const {
-  double left = std::numeric_limits<double>::max();
-  double top = left;
-  double right = -left;
-  double bottom = -left;
-  for (const auto& [centre, radius_mm] : {std::pair{cone.a, cone.a_radius_mm}, std::pair{cone.b, cone.b_radius_mm}}) {
-    const double depth_mm = camera_.depth_mm(centre);
-    if (depth_mm <= radius_mm) return {};  // beside or behind the camera
-    const ImagePoint middle = camera_.project(centre);
-    const double off_axis = cv::norm(centre - camera_.position_mm()) / depth_mm;
-    const double reach_px = camera_.focal_px() * radius_mm / (depth_mm - radius_mm) * off_axis + 3;
-    left = std::min(left, middle.u_px - reach_px);
-    right = std::max(right, middle.u_px + reach_px);
-    top = std::min(top, middle.v_px - reach_px);
-    bottom = std::max(bottom, middle.v_px + reach_px);
+// Light of a box, from back to front, with what lies around it for the lens' blur.
+void RigRenderer::compose(const cv::Rect& box, const cv::Rect& hand_box, const cv::Rect& mirror_box) {
+  const cv::Rect around = grown(box, Development::margin_px, {{0, 0}, coded_.size()});
+  view_->light(around).copyTo(composed_);
+  const cv::Rect shaded = around & shadow_box_;
+  for (int v = shaded.y; v < shaded.y + shaded.height; ++v) {
+    const float* factor = shadow_factor_.ptr<float>(v - shadow_box_.y) - shadow_box_.x;
+    Light* row = composed_.ptr<Light>(v - around.y) - around.x;
+    for (int u = shaded.x; u < shaded.x + shaded.width; ++u)
+      row[u] *= factor[u];
   }
-  const double far = 1e6;  // keeps the box within what an int holds
-  const cv::Rect box(
-      cv::Point(static_cast<int>(std::max(left, -far)), static_cast<int>(std::max(top, -far))),
-      cv::Point(static_cast<int>(std::min(right, far)) + 1, static_cast<int>(std::min(bottom, far)) + 1));
-  return box & cv::Rect(0, 0, settings_.image.width_px, settings_.image.height_px);
-}
-
-void RigRenderer::add_noise(std::uint64_t noise_index, cv::Mat& bgr) const {
-  cv::RNG place(noise_index * 0x9E3779B97F4A7C15ULL + settings_.seed + 1);
-  const auto shifted = [&](const cv::Mat& noise) {
-    const cv::Point corner(place.uniform(0, noise_shift_px), place.uniform(0, noise_shift_px));
-    return noise(cv::Rect(corner, bgr.size()));
-  };
-  cv::add(bgr, shifted(brighter_), bgr);
-  cv::subtract(bgr, shifted(darker_), bgr);
+  for (int v = mirror_box.y; v < mirror_box.y + mirror_box.height; ++v) {
+    const auto* image = mirror_image_.ptr<cv::Vec4f>(v - mirror_box.y) - mirror_box.x;
+    const float* reflectance = view_->scene.reflectance.ptr<float>(v);
+    const Light* behind = view_->scene.mirrored.ptr<Light>(v);
+    Light* row = composed_.ptr<Light>(v - around.y) - around.x;
+    for (int u = mirror_box.x; u < mirror_box.x + mirror_box.width; ++u) {
+      const cv::Vec4f& seen = image[u];
+      if (seen[3] <= 0) continue;
+      for (int c = 0; c < 3; ++c)
+        row[u][c] += reflectance[u] * (seen[c] - seen[3] * behind[u][c]);
+    }
+  }
+  for (int v = hand_box.y; v < hand_box.y + hand_box.height; ++v) {
+    const auto* image = hand_image_.ptr<cv::Vec4f>(v - hand_box.y) - hand_box.x;
+    Light* row = composed_.ptr<Light>(v - around.y) - around.x;
+    for (int u = hand_box.x; u < hand_box.x + hand_box.width; ++u) {
+      const cv::Vec4f& seen = image[u];
+      if (seen[3] <= 0) continue;
+      for (int c = 0; c < 3; ++c)
+        row[u][c] = row[u][c] * (1 - seen[3]) + seen[c];
+    }
+  }
+  development_.code(composed_, coded_part_);
+  coded_part_({box.x - around.x, box.y - around.y, box.width, box.height}).copyTo(coded_(box));
 }
 
 }  // namespace telehug

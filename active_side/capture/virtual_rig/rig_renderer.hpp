@@ -1,20 +1,26 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <memory>
 #include <opencv2/core/mat.hpp>
 #include <optional>
 #include <vector>
 
-#include "capture/virtual_rig/hand.hpp"
+#include "capture/virtual_rig/development.hpp"
+#include "capture/virtual_rig/hand_pose.hpp"
+#include "capture/virtual_rig/hand_shading.hpp"
+#include "capture/virtual_rig/mesh_raster.hpp"
+#include "capture/virtual_rig/mirror_blur.hpp"
 #include "capture/virtual_rig/pinhole_camera.hpp"
-#include "capture/virtual_rig/rig_scene.hpp"
+#include "capture/virtual_rig/rig_view.hpp"
 #include "capture/virtual_rig/settings.hpp"
 
 namespace telehug {
 
-// Draws the pictures of a virtual rig: the scene is rendered once, a frame only adds the hand, its mirror image in the
-// screen, the lens' blur and the sensor's noise.
+// Draws the pictures of a virtual rig: the scene is rendered once, a frame only adds hands, their shadows and mirror
+// images, and what lens and sensor do to them.
 class RigRenderer {
  public:
   explicit RigRenderer(const VirtualRigSettings& settings);
@@ -22,27 +28,50 @@ class RigRenderer {
   // Shows another picture on the screen (CV_8UC3; renders the scene anew, some 100 ms).
   void show(const cv::Mat& picture);
 
-  // `finger` nullopt: nobody there. The same `noise_index` gives the same noise.
-  void draw(const std::optional<FingerPlace>& finger, std::uint64_t noise_index, cv::Mat& bgr);
-  void draw_without_noise(const std::optional<FingerPlace>& finger, cv::Mat& bgr);
+  // The same in two steps, for views that are wanted again: other screen pictures, light or places of the camera. Lens,
+  // sensor, coat and size are those of this renderer's settings.
+  [[nodiscard]] std::shared_ptr<RigView> view(const VirtualRigSettings& settings);
+  [[nodiscard]] std::shared_ptr<RigView> view() const { return view_; }
+  void show(std::shared_ptr<RigView> view) { view_ = std::move(view); }
 
-  [[nodiscard]] const PinholeCamera& camera() const noexcept { return camera_; }
+  // No hands: nobody there. The same `noise_index` gives the same noise and exposure.
+  void draw(const std::vector<HandPose>& hands, std::uint64_t noise_index, cv::Mat& bgr);
+
+  // One hand in its usual pose, or nobody.
+  void draw(const std::optional<FingerPlace>& finger, std::uint64_t noise_index, cv::Mat& bgr);
+
+  [[nodiscard]] const PinholeCamera& camera() const noexcept { return view_->camera; }
 
  private:
-  void draw_hand(const Hand& hand, bool mirrored);
-  void draw_cone(const RoundCone& cone, bool mirrored);
-  [[nodiscard]] cv::Rect box_of(const RoundCone& cone) const;
-  void add_noise(std::uint64_t noise_index, cv::Mat& bgr) const;
+  struct KnownShape {
+    HandPose pose;
+    HandShape shape;
+  };
+
+  const HandShape& shape_of(const HandPose& pose);
+  [[nodiscard]] cv::Rect raster(bool mirrored, cv::Mat& image, cv::Mat& height_mm);
+  void add_shadows();
+  void compose(const cv::Rect& box, const cv::Rect& hand_box, const cv::Rect& mirror_box);
 
   VirtualRigSettings settings_;
-  PinholeCamera camera_;
-  RigScene scene_;
-  cv::Mat blurred_scene_;
-  cv::Mat sharp_;      // the scene with the hand, valid within drawn_
-  cv::Mat nearest_t_;  // CV_32FC1: distance of what was drawn so far along each pixel's ray
-  cv::Rect drawn_;
-  cv::Mat brighter_;  // noise to add and to subtract, larger than a frame by noise_shift_px
-  cv::Mat darker_;
+  Development development_;
+  MirrorBlur mirror_blur_;
+  MeshRaster raster_;
+  std::shared_ptr<RigView> view_;
+  std::vector<std::shared_ptr<const KnownShape>> shapes_;  // the newest last
+
+  // Of the picture that is being drawn.
+  cv::Mat coded_;
+  std::vector<std::shared_ptr<const KnownShape>> drawn_;
+  std::vector<SeenHand> seen_;
+  std::vector<std::array<const RasterVertex*, 3>> triangles_;  // those that face the camera
+  cv::Mat shadow_factor_;
+  cv::Rect shadow_box_;
+  cv::Mat hand_image_;
+  cv::Mat mirror_image_;
+  cv::Mat heights_;
+  cv::Mat composed_;
+  cv::Mat coded_part_;
 };
 
 }  // namespace telehug

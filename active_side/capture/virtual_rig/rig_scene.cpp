@@ -2,131 +2,241 @@
 #include "capture/virtual_rig/rig_scene.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <opencv2/imgproc.hpp>
+
+#include "capture/virtual_rig/mirror_blur.hpp"
+#include "capture/virtual_rig/surroundings.hpp"
 
 namespace telehug {
 namespace {
 
-using Colour = cv::Vec3d;  // blue, green, red, 0..255
-
-const Colour bezel_colour{46, 44, 44};
-const Colour bezel_edge{52, 50, 50};  // lit from above
-const Colour foot_colour{70, 66, 64};
-const Colour desk_colour{158, 152, 142};
-const Colour nothing{18, 18, 18};
-constexpr double grazing_brightness = 0.75;  // an LCD looks darker from the edge
-const Colour coat_haze{16, 15, 15};          // room light that a matt coat scatters
-constexpr double foot_half_width_mm = 95;
-constexpr double foot_front_mm = 120;
-constexpr double foot_thickness_mm = 8;
-
-// Samples of a pixel, so that edges are smooth.
-constexpr std::array<double, 2> subpixels{-0.25, 0.25};
+const cv::Vec3f upwards{0, -1, 0};
+const cv::Vec3f to_user{0, 0, 1};
+constexpr double content_step_mm = 0.5;  // finer than the camera sees it
+constexpr double light_step_mm = 10;
 
 struct Sample {
-  Colour seen;
-  Colour unmirrored;
-  bool screen = false;
+  Light own;
+  Light mirrored;  // times the reflectance
+  float reflectance = 0;
+  float height_mm = 0;  // of what is mirrored, above the screen
+  int surfaces = 0;     // own and mirrored one: where they change an edge runs
 };
+
+cv::Mat as_light(const cv::Mat& shown, const cv::Size& size, double luminance) {
+  cv::Mat scaled;
+  cv::resize(shown, scaled, size, 0, 0, shown.cols > size.width ? cv::INTER_AREA : cv::INTER_LINEAR);
+  scaled.convertTo(scaled, CV_32F, 1.0 / 255);
+  cv::multiply(scaled, scaled, scaled, luminance);
+  return scaled;
+}
 
 class SceneRenderer {
  public:
   SceneRenderer(const VirtualRigSettings& settings, const PinholeCamera& camera, const cv::Mat& shown)
-      : settings_(settings), camera_(camera), shown_(shown) {}
+      : settings_(settings),
+        camera_(camera),
+        surroundings_(settings),
+        lighting_(settings.light),
+        content_(as_light(shown,
+                          {std::max(1, cvRound(settings.screen.width_mm / content_step_mm)),
+                           std::max(1, cvRound(settings.screen.height_mm / content_step_mm))},
+                          settings.screen_luminance)),
+        haze_(lighting_.on(to_user) * static_cast<float>(settings.coat.haze)),
+        bezel_front_(product(linear(settings.bezel_tint), lighting_.on(to_user, 0.9F))),
+        bezel_edge_(product(linear(settings.bezel_tint), lighting_.on(upwards, 0.85F))) {}
 
   [[nodiscard]] Sample look(double u_px, double v_px) const {
     const RigPoint& eye = camera_.position_mm();
     const RigPoint ray = camera_.ray(u_px, v_px);
-    const ScreenSize& screen = settings_.screen;
-    const double bezel_mm = settings_.bezel_mm;
-    if (ray[1] > 0 && ray[2] < 0) {
-      const RigPoint wall = eye + ray * ((screen.height_mm - eye[1]) / ray[1]);
-      const RigPoint front = eye + ray * ((settings_.bezel_raised_mm - eye[2]) / ray[2]);
-      const bool across = wall[0] >= -bezel_mm && wall[0] <= screen.width_mm + bezel_mm;
-      if (across && wall[2] >= 0 && wall[2] <= settings_.bezel_raised_mm) return {bezel_edge, bezel_edge, false};
-      if (across && front[1] > screen.height_mm && front[1] <= screen.height_mm + bezel_mm) {
-        return {bezel_colour, bezel_colour, false};
-      }
-    }
+    if (const auto bezel = look_at_bezel(eye, ray)) return plain(*bezel);
     if (ray[2] < 0) {
+      const ScreenSize& screen = settings_.screen;
       const RigPoint p = eye + ray * (-eye[2] / ray[2]);
+      const double bezel_mm = settings_.bezel_mm;
       if (p[0] >= -bezel_mm && p[0] <= screen.width_mm + bezel_mm && p[1] >= -bezel_mm && p[1] <= screen.height_mm) {
-        if (p[0] < 0 || p[0] > screen.width_mm || p[1] < 0) return {bezel_colour, bezel_colour, false};
-        const Colour own = content(p[0] / screen.width_mm, p[1] / screen.height_mm) * grazing_brightness + coat_haze;
-        return {own + behind_monitor(p, {ray[0], ray[1], -ray[2]}) * settings_.mirror, own, true};
+        if (p[0] < 0 || p[0] > screen.width_mm || p[1] < 0) return plain({bezel_front_, Surface::frame, 0});
+        return screen_at(p, ray);
       }
     }
-    const Colour colour = behind_monitor(eye, ray);
-    return {colour, colour, false};
+    return plain(surroundings_.look(eye, ray));
   }
 
  private:
-  // Foot and desk.
-  [[nodiscard]] Colour behind_monitor(const RigPoint& from, const RigPoint& ray) const {
-    if (ray[1] <= 0) return nothing;
-    const double desk_y_mm = settings_.screen.height_mm + settings_.desk_below_mm;
-    const RigPoint foot = from + ray * ((desk_y_mm - foot_thickness_mm - from[1]) / ray[1]);
-    if (std::abs(foot[0] - settings_.screen.width_mm / 2) < foot_half_width_mm && std::abs(foot[2]) < foot_front_mm) {
-      return foot_colour;
+  static Sample plain(const Seen& seen) { return {seen.light, {}, 0, 0, static_cast<int>(seen.surface)}; }
+
+  // The lower part of the frame: its front and the edge that looks up at the camera.
+  [[nodiscard]] std::optional<Seen> look_at_bezel(const RigPoint& from, const RigPoint& ray) const {
+    const ScreenSize& screen = settings_.screen;
+    const double bezel_mm = settings_.bezel_mm;
+    if (ray[1] <= 0) return std::nullopt;
+    const double edge_t = (screen.height_mm - from[1]) / ray[1];
+    const RigPoint edge = from + ray * edge_t;
+    const bool across = edge[0] >= -bezel_mm && edge[0] <= screen.width_mm + bezel_mm;
+    if (across && edge_t > 0 && edge[2] >= 0 && edge[2] <= settings_.bezel_raised_mm) {
+      return Seen{bezel_edge_, Surface::bezel_edge, edge_t};
     }
-    const RigPoint desk = from + ray * ((desk_y_mm - from[1]) / ray[1]);
-    const double grain = 1 + 0.03 * std::sin(0.11 * desk[2] + 0.7 * std::sin(0.013 * desk[0])) +
-                         0.02 * std::sin(0.031 * desk[0] + 0.05 * desk[2]);
-    const double shade = 0.75 + 0.25 * std::tanh((desk[2] + 30) / 60);  // less light behind the monitor
-    return desk_colour * (grain * shade);
+    if (ray[2] >= 0) return std::nullopt;
+    const double front_t = (settings_.bezel_raised_mm - from[2]) / ray[2];
+    const RigPoint front = from + ray * front_t;
+    const bool on_front = front[0] >= -bezel_mm && front[0] <= screen.width_mm + bezel_mm &&
+                          front[1] > screen.height_mm && front[1] <= screen.height_mm + bezel_mm;
+    if (on_front) return Seen{bezel_front_, Surface::bezel_front, front_t};
+    return std::nullopt;
   }
 
-  // Bilinear; `x` and `y` are shares of the screen.
-  [[nodiscard]] Colour content(double x, double y) const {
-    const double column = std::clamp(x * shown_.cols - 0.5, 0.0, shown_.cols - 1.0);
-    const double row = std::clamp(y * shown_.rows - 0.5, 0.0, shown_.rows - 1.0);
+  [[nodiscard]] Sample screen_at(const RigPoint& p, const RigPoint& ray) const {
+    const RigPoint back(ray[0], ray[1], -ray[2]);
+    auto seen = look_at_bezel(p, back);
+    if (!seen) seen = surroundings_.look(p, back);
+    const auto cosine = static_cast<float>(-ray[2] / cv::norm(ray));
+    Sample sample;
+    sample.own = content_at(p[0], p[1]) + haze_;
+    sample.reflectance = static_cast<float>(settings_.coat.mirror) * fresnel(cosine);
+    sample.mirrored = seen->light * sample.reflectance;
+    sample.height_mm = static_cast<float>(seen->distance * back[2]);
+    sample.surfaces = static_cast<int>(Surface::screen) + 16 * static_cast<int>(seen->surface);
+    return sample;
+  }
+
+  // Bilinear.
+  [[nodiscard]] Light content_at(double x_mm, double y_mm) const {
+    const double column = std::clamp(x_mm / content_step_mm - 0.5, 0.0, content_.cols - 1.0);
+    const double row = std::clamp(y_mm / content_step_mm - 0.5, 0.0, content_.rows - 1.0);
     const int c0 = static_cast<int>(column);
     const int r0 = static_cast<int>(row);
-    const int c1 = std::min(c0 + 1, shown_.cols - 1);
-    const int r1 = std::min(r0 + 1, shown_.rows - 1);
-    const double fc = column - c0;
-    const double fr = row - r0;
-    return (at(r0, c0) * (1 - fc) + at(r0, c1) * fc) * (1 - fr) + (at(r1, c0) * (1 - fc) + at(r1, c1) * fc) * fr;
+    const int c1 = std::min(c0 + 1, content_.cols - 1);
+    const int r1 = std::min(r0 + 1, content_.rows - 1);
+    const auto fc = static_cast<float>(column - c0);
+    const auto fr = static_cast<float>(row - r0);
+    return (content_.at<Light>(r0, c0) * (1 - fc) + content_.at<Light>(r0, c1) * fc) * (1 - fr) +
+           (content_.at<Light>(r1, c0) * (1 - fc) + content_.at<Light>(r1, c1) * fc) * fr;
   }
-  [[nodiscard]] Colour at(int row, int column) const { return shown_.at<cv::Vec3b>(row, column); }
 
   const VirtualRigSettings& settings_;
   const PinholeCamera& camera_;
-  const cv::Mat& shown_;
+  Surroundings surroundings_;
+  RoomLighting lighting_;
+  cv::Mat content_;
+  Light haze_;
+  Light bezel_front_;
+  Light bezel_edge_;
 };
 
-cv::Vec3b rounded(const Colour& colour) {
-  return {cv::saturate_cast<uchar>(colour[0]), cv::saturate_cast<uchar>(colour[1]),
-          cv::saturate_cast<uchar>(colour[2])};
+class Canvas {
+ public:
+  Canvas(const SceneRenderer& renderer, cv::Size size)
+      : renderer_(renderer),
+        own(size, CV_32FC3),
+        mirrored(size, CV_32FC3),
+        reflectance(size, CV_32FC1),
+        height(size, CV_32FC1),
+        surfaces(size, CV_8UC1) {}
+
+  void render() {
+    for (int v = 0; v < own.rows; ++v) {
+      for (int u = 0; u < own.cols; ++u)
+        store(v, u, renderer_.look(u, v));
+    }
+    smooth_edges();
+  }
+
+ private:
+  void store(int v, int u, const Sample& sample) {
+    own.at<Light>(v, u) = sample.own;
+    mirrored.at<Light>(v, u) = sample.mirrored;
+    reflectance.at<float>(v, u) = sample.reflectance;
+    height.at<float>(v, u) = sample.height_mm;
+    surfaces.at<uchar>(v, u) = static_cast<uchar>(sample.surfaces);
+  }
+
+  // Pixels beside which something else is seen get the mean of 4 x 4 rays.
+  void smooth_edges() {
+    cv::Mat least;
+    cv::Mat most;
+    cv::erode(surfaces, least, {});
+    cv::dilate(surfaces, most, {});
+    for (int v = 0; v < own.rows; ++v) {
+      for (int u = 0; u < own.cols; ++u) {
+        if (least.at<uchar>(v, u) == most.at<uchar>(v, u)) continue;
+        Sample mean;
+        mean.surfaces = surfaces.at<uchar>(v, u);
+        mean.height_mm = height.at<float>(v, u);
+        for (int i = 0; i < 16; ++i) {
+          const Sample sample = renderer_.look(u + (i % 4 - 1.5) / 4, v + (static_cast<double>(i / 4) - 1.5) / 4);
+          mean.own += sample.own * (1.0F / 16);
+          mean.mirrored += sample.mirrored * (1.0F / 16);
+          mean.reflectance += sample.reflectance / 16;
+        }
+        store(v, u, mean);
+      }
+    }
+  }
+
+  const SceneRenderer& renderer_;
+
+ public:
+  cv::Mat own;
+  cv::Mat mirrored;
+  cv::Mat reflectance;
+  cv::Mat height;
+  cv::Mat surfaces;
+};
+
+// Divides by the reflectance what came multiplied with it, and blurs it.
+cv::Mat blurred_mirror(const Canvas& canvas, const VirtualRigSettings& settings) {
+  cv::Mat image(canvas.own.size(), CV_32FC4);
+  for (int v = 0; v < image.rows; ++v) {
+    for (int u = 0; u < image.cols; ++u) {
+      const float reflectance = canvas.reflectance.at<float>(v, u);
+      const Light light = reflectance > 0 ? canvas.mirrored.at<Light>(v, u) * (1 / reflectance) : Light{};
+      image.at<cv::Vec4f>(v, u) = {light[0], light[1], light[2], reflectance > 0 ? 1.0F : 0.0F};
+    }
+  }
+  MirrorBlur(settings.coat.roughness_deg, settings.focal_px, settings.camera.position_mm[2])
+      .apply(image, canvas.height);
+  cv::Mat mirrored(image.size(), CV_32FC3);
+  for (int v = 0; v < image.rows; ++v) {
+    for (int u = 0; u < image.cols; ++u) {
+      const auto& pixel = image.at<cv::Vec4f>(v, u);
+      const float share = pixel[3] > 1e-3F ? 1 / pixel[3] : 0;
+      mirrored.at<Light>(v, u) = Light{pixel[0], pixel[1], pixel[2]} * share;
+    }
+  }
+  return mirrored;
 }
 
 }  // namespace
 
+float fresnel(float cosine) {
+  constexpr float index = 1.5F;
+  const float inside = std::sqrt(1 - (1 - cosine * cosine) / (index * index));
+  const float across = (cosine - index * inside) / (cosine + index * inside);
+  const float along = (inside - index * cosine) / (inside + index * cosine);
+  return (across * across + along * along) / 2;
+}
+
+Light RigScene::screen_light(double x_mm, double y_mm) const {
+  const int column = std::clamp(static_cast<int>(x_mm / light_step_mm), 0, content.cols - 1);
+  const int row = std::clamp(static_cast<int>(y_mm / light_step_mm), 0, content.rows - 1);
+  return content.at<Light>(row, column);
+}
+
 RigScene render_scene(const VirtualRigSettings& settings, const PinholeCamera& camera, const cv::Mat& shown) {
-  const int rows = settings.image.height_px;
-  const int cols = settings.image.width_px;
-  RigScene scene{cv::Mat(rows, cols, CV_8UC3), cv::Mat(rows, cols, CV_8UC3), cv::Mat(rows, cols, CV_8UC1)};
   const SceneRenderer renderer(settings, camera, shown);
-  constexpr double weight = 1.0 / (subpixels.size() * subpixels.size());
-  for (int v = 0; v < rows; ++v) {
-    for (int u = 0; u < cols; ++u) {
-      Colour seen;
-      Colour unmirrored;
-      int on_screen = 0;
-      for (const double dv : subpixels) {
-        for (const double du : subpixels) {
-          const Sample sample = renderer.look(u + du, v + dv);
-          seen += sample.seen * weight;
-          unmirrored += sample.unmirrored * weight;
-          on_screen += sample.screen ? 1 : 0;
-        }
-      }
-      scene.picture.at<cv::Vec3b>(v, u) = rounded(seen);
-      scene.unmirrored.at<cv::Vec3b>(v, u) = rounded(unmirrored);
-      scene.is_screen.at<uchar>(v, u) = on_screen >= 2 ? 255 : 0;
-    }
-  }
+  Canvas canvas(renderer, {settings.image.width_px, settings.image.height_px});
+  canvas.render();
+  RigScene scene;
+  scene.mirrored = blurred_mirror(canvas, settings);
+  scene.own = canvas.own;
+  scene.reflectance = canvas.reflectance;
+  scene.surface = canvas.surfaces & 15;
+  scene.content = as_light(shown,
+                           {std::max(1, cvRound(settings.screen.width_mm / light_step_mm)),
+                            std::max(1, cvRound(settings.screen.height_mm / light_step_mm))},
+                           settings.screen_luminance);
+  cv::blur(scene.content, scene.content, {3, 3});
   return scene;
 }
 

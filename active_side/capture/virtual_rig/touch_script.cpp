@@ -2,7 +2,8 @@
 #include "capture/virtual_rig/touch_script.hpp"
 
 #include <algorithm>
-#include <random>
+
+#include "capture/virtual_rig/random_numbers.hpp"
 
 namespace telehug {
 namespace {
@@ -26,17 +27,40 @@ FingerPlace hovering(const ScreenPoint& over, double share_of_way) {
   return {{over.x_mm, over.y_mm + drop_per_hover * hover_mm}, hover_mm};
 }
 
+FingerPlace place_in(const ScriptedTouch& touch, double time_s) {
+  if (time_s < touch.begin_s) return hovering(touch.from, (touch.begin_s - time_s) / approach_s);
+  if (time_s > touch.end_s) return hovering(touch.to, (time_s - touch.end_s) / approach_s);
+  const double share = touch.end_s > touch.begin_s ? (time_s - touch.begin_s) / (touch.end_s - touch.begin_s) : 0;
+  return {mix(touch.from, touch.to, share * share * (3 - 2 * share)), 0};
+}
+
+const ScriptedTouch* touch_at(const TouchScript& script, double time_s) {
+  for (const ScriptedTouch& touch : script.touches) {
+    if (time_s >= touch.begin_s - approach_s && time_s <= touch.end_s + approach_s) return &touch;
+  }
+  return nullptr;
+}
+
 }  // namespace
 
 std::optional<FingerPlace> finger_at(const TouchScript& script, double time_s) {
-  for (const ScriptedTouch& touch : script.touches) {
-    if (time_s < touch.begin_s - approach_s || time_s > touch.end_s + approach_s) continue;
-    if (time_s < touch.begin_s) return hovering(touch.from, (touch.begin_s - time_s) / approach_s);
-    if (time_s > touch.end_s) return hovering(touch.to, (time_s - touch.end_s) / approach_s);
-    const double share = touch.end_s > touch.begin_s ? (time_s - touch.begin_s) / (touch.end_s - touch.begin_s) : 0;
-    return FingerPlace{mix(touch.from, touch.to, share * share * (3 - 2 * share)), 0};
+  const ScriptedTouch* touch = touch_at(script, time_s);
+  if (touch == nullptr) return std::nullopt;
+  return place_in(*touch, time_s);
+}
+
+std::vector<HandPose> hands_at(const TouchScript& script, double time_s) {
+  const ScriptedTouch* touch = touch_at(script, time_s);
+  if (touch == nullptr) return {};
+  std::vector<HandPose> hands(1, touch->pose);
+  HandPose& pose = hands.front();
+  pose.finger = place_in(*touch, time_s);
+  if (touch->beside) {
+    pose.second = pose.finger;
+    pose.second->foot.x_mm += touch->beside->x_mm;
+    pose.second->foot.y_mm += touch->beside->y_mm;
   }
-  return std::nullopt;
+  return hands;
 }
 
 TouchScript default_script(const ScreenSize& screen) {
@@ -58,23 +82,19 @@ TouchScript default_script(const ScreenSize& screen) {
 }
 
 TouchScript random_script(const ScreenSize& screen, int count, std::uint64_t seed) {
-  std::mt19937_64 generator(seed);
-  // The standard library's distributions differ between implementations; these numbers don't.
-  const auto uniform = [&](double low, double high) {
-    return low + (high - low) * static_cast<double>(generator() >> 11) * 0x1.0p-53;
-  };
+  RandomNumbers random(seed);
   const auto point = [&] {
-    const double x_mm = uniform(left, right) * screen.width_mm;
-    return ScreenPoint{x_mm, uniform(top, bottom) * screen.height_mm};
+    const double x_mm = random.uniform(left, right) * screen.width_mm;
+    return ScreenPoint{x_mm, random.uniform(top, bottom) * screen.height_mm};
   };
   TouchScript script;
   double time_s = 0;
   for (int i = 0; i < count; ++i) {
-    const double begin_s = time_s + uniform(2 * approach_s + 0.1, 2 * approach_s + 0.6);
-    time_s = begin_s + uniform(0.2, 1.2);
+    const double begin_s = time_s + random.uniform(2 * approach_s + 0.1, 2 * approach_s + 0.6);
+    time_s = begin_s + random.uniform(0.2, 1.2);
     const ScreenPoint from = point();
     const ScreenPoint to = point();
-    const bool stroke = uniform(0, 1) < 0.3;
+    const bool stroke = random.uniform(0, 1) < 0.3;
     script.touches.push_back({begin_s, time_s, from, stroke ? to : from});
   }
   script.length_s = time_s + 2 * approach_s;

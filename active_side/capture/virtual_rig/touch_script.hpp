@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "capture/virtual_rig/hand_pose.hpp"
 #include "common/units.hpp"
 
 namespace telehug {
@@ -16,6 +17,9 @@ struct ScriptedTouch {
   double end_s = 0;
   ScreenPoint from;
   ScreenPoint to;
+  HandPose pose = {};  // but for its places
+  std::optional<ScreenPoint> beside =
+      std::nullopt;  // the middle finger touches, too, at the first one's place plus this
 };
 
 // Touches in order of time, at least 2 * approach_s apart, and the length of the whole.
@@ -27,14 +31,11 @@ struct TouchScript {
 inline constexpr double approach_s = 0.3;
 inline constexpr double approach_from_mm = 180;
 
-// Where the finger's foremost point is: over or on a point of the screen.
-struct FingerPlace {
-  ScreenPoint foot;     // straight below it on the screen
-  double hover_mm = 0;  // 0: it touches
-};
-
 // nullopt: nobody is there.
 std::optional<FingerPlace> finger_at(const TouchScript& script, double time_s);
+
+// The same as a hand in its pose, or none.
+std::vector<HandPose> hands_at(const TouchScript& script, double time_s);
 
 // Taps, a long touch and a stroke in the part of the screen that a webcam above it sees well.
 TouchScript default_script(const ScreenSize& screen);

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 #include <stdexcept>
@@ -12,7 +13,8 @@ namespace telehug {
 namespace {
 
 constexpr double dot_mm = 10;
-constexpr double margin_px = 8;  // a calibration point must lie this far inside the picture
+constexpr double margin_px = 8;           // a calibration point must lie this far inside the picture
+constexpr double least_distance_mm = 12;  // between calibration points
 
 VirtualRigSettings completed(VirtualRigSettings settings) {
   if (settings.script.touches.empty()) settings.script = default_script(settings.screen);
@@ -45,8 +47,26 @@ Status check_virtual_rig(const VirtualRigSettings& s) {
       !within(s.desk_below_mm, 10, 2000)) {
     return Error{"virtual rig: bezel_mm must be 0 to 500, desk_below_mm 10 to 2000, the bezel lower than the camera"};
   }
-  if (s.skin_tone < 1 || s.skin_tone > 6) return Error{"virtual rig: skin_tone must be 1 to 6 (Fitzpatrick)"};
-  if (!within(s.mirror, 0, 1)) return Error{"virtual rig: mirror must be 0 to 1"};
+  if (!within(s.distortion_k1, -0.3, 0.3)) return Error{"virtual rig: distortion_k1 must be -0.3 to 0.3"};
+  if (s.hand.skin_tone < 1 || s.hand.skin_tone > 6) return Error{"virtual rig: skin_tone must be 1 to 6 (Fitzpatrick)"};
+  if (!within(s.hand.finger_width_mm, 8, 30) || !within(s.hand.nail_mm, 0, 30)) {
+    return Error{"virtual rig: fingers must be 8 to 30 mm wide, nails 0 to 30 mm long"};
+  }
+  if (!within(s.coat.mirror, 0, 1) || !within(s.coat.roughness_deg, 0, 20) || !within(s.coat.haze, 0, 1)) {
+    return Error{"virtual rig: the coat's mirror and haze must be 0 to 1, its roughness 0 to 20 degrees"};
+  }
+  if (!within(s.light.level, 0, 100) || !within(s.light.directed, 0, 1) || !(cv::norm(s.light.towards) > 0)) {
+    return Error{"virtual rig: the light's level must be 0 to 100, its directed share 0 to 1, its direction not 0"};
+  }
+  if (!within(s.sensor.exposure, 0.001, 1000) || !within(s.sensor.exposure_spread, 0, 2) ||
+      !within(s.sensor.auto_exposure, 0, 1) || !within(s.sensor.target_tone, 1, 254) ||
+      !within(s.sensor.blur_px, 0, 2.4) || !within(s.sensor.sharpening, 0, 5) || s.sensor.jpeg_quality < 0 ||
+      s.sensor.jpeg_quality > 100) {
+    return Error{
+        "virtual rig: exposure must be 0.001 to 1000, its spread 0 to 2, auto_exposure 0 to 1, target_tone 1 to 254, "
+        "blur_px 0 to 2.4, sharpening 0 to 5, "
+        "jpeg_quality 0 to 100"};
+  }
   if (!within(s.noise_sd, 0, 50)) return Error{"virtual rig: noise_sd must be 0 to 50"};
   if (!within(s.camera.position_mm[2], 1, 1000) || !within(s.camera.position_mm[1], -1000, 0)) {
     return Error{"virtual rig: the camera must be 1 to 1000 mm in front of the screen, at its upper edge or above"};
@@ -56,6 +76,11 @@ Status check_virtual_rig(const VirtualRigSettings& s) {
   }
   if (!s.screen_picture.empty() && s.screen_picture.type() != CV_8UC3) {
     return Error{"virtual rig: the screen's picture must be 8-bit BGR"};
+  }
+  for (const Disturbance& disturbance : s.disturbances) {
+    if (!(disturbance.end_s > disturbance.begin_s) || !std::isfinite(disturbance.amount)) {
+      return Error{fmt::format("virtual rig: the disturbance at {} s has no end after it", disturbance.begin_s)};
+    }
   }
   double free_from_s = 0;
   for (const ScriptedTouch& touch : s.script.touches) {
@@ -77,7 +102,7 @@ Status check_virtual_rig(const VirtualRigSettings& s) {
 }
 
 VirtualRig::VirtualRig(VirtualRigSettings settings, const Clock& clock, SleepUntil sleep)
-    : settings_(completed(std::move(settings))), clock_(clock), sleep_(std::move(sleep)), renderer_(settings_) {}
+    : settings_(completed(std::move(settings))), clock_(clock), sleep_(std::move(sleep)), pictures_(settings_) {}
 
 Status VirtualRig::open() {
   if (open_) return Done{};
@@ -111,35 +136,44 @@ ReadOutcome VirtualRig::read(Frame& frame, Duration timeout) {
     const std::chrono::duration<double> late = clock_.now() - (start_ + offset(next_));
     next_ += static_cast<std::uint64_t>(late.count() * settings_.fps);  // as with a webcam the newest frame wins
   }
-  renderer_.draw(finger(next_), next_, frame.bgr);
+  pictures_.draw(hands(next_), script_time_s(next_), next_, frame.bgr);
   frame.sequence = next_;
   frame.time = start_ + offset(next_);
   ++next_;
   return ReadOutcome::frame;
 }
 
-std::optional<FingerPlace> VirtualRig::finger(std::uint64_t sequence) const {
+double VirtualRig::script_time_s(std::uint64_t sequence) const {
   const double time_s = static_cast<double>(sequence) / settings_.fps;
-  return finger_at(settings_.script, settings_.repeat ? std::fmod(time_s, settings_.script.length_s) : time_s);
+  return settings_.repeat ? std::fmod(time_s, settings_.script.length_s) : time_s;
+}
+
+std::vector<HandPose> VirtualRig::hands(std::uint64_t sequence) const {
+  return hands_at(settings_.script, script_time_s(sequence));
 }
 
 VirtualTruth VirtualRig::truth(std::uint64_t sequence) const {
-  const auto place = finger(sequence);
-  if (!place) return {};
-  if (place->hover_mm > 0) return {false, place->foot, place->hover_mm};
-  return {true, place->foot, std::nullopt};
+  const std::vector<HandPose> seen = hands(sequence);
+  if (seen.empty()) return {};
+  const HandPose& hand = seen.front();
+  VirtualTruth truth;
+  truth.contact = hand.finger.hover_mm <= 0;
+  truth.screen = hand.finger.foot;
+  if (!truth.contact) truth.hover_mm = hand.finger.hover_mm;
+  if (hand.second) truth.second = hand.second->foot;
+  return truth;
 }
 
-cv::Mat VirtualRig::picture_of(const cv::Mat& shown, const std::optional<FingerPlace>& finger) {
-  RigRenderer renderer = renderer_;  // shares the noise, which takes longest to make
+cv::Mat VirtualRig::picture_of(const cv::Mat& shown, const std::vector<HandPose>& hands) {
+  RigRenderer renderer = pictures_.renderer();  // shares the noise, which takes longest to make
   renderer.show(shown);
   cv::Mat bgr;
-  renderer.draw(finger, ~calibration_pictures_++, bgr);
+  renderer.draw(hands, ~calibration_pictures_++, bgr);
   return bgr;
 }
 
 cv::Mat VirtualRig::picture_of_background() {
-  return picture_of(plain(settings_.screen, 0), std::nullopt);
+  return picture_of(plain(settings_.screen, 0), {});
 }
 
 cv::Mat VirtualRig::picture_of_triangle() {
@@ -149,10 +183,10 @@ cv::Mat VirtualRig::picture_of_triangle() {
   const std::vector<cv::Point> corners{
       {width / 2, height - 1}, {width * 2 / 5, height / 2}, {width * 3 / 5, height / 2}};
   cv::fillConvexPoly(shown, corners, cv::Scalar::all(0), cv::LINE_AA);
-  return picture_of(shown, std::nullopt);
+  return picture_of(shown, {});
 }
 
-cv::Mat VirtualRig::picture_of_touch(const ScreenPoint& point) {
+cv::Mat VirtualRig::picture_of_touch(const ScreenPoint& point, const HandPose& pose) {
   cv::Mat shown = plain(settings_.screen, 0);
   const double x_px_per_mm = shown.cols / settings_.screen.width_mm;
   const double y_px_per_mm = shown.rows / settings_.screen.height_mm;
@@ -162,7 +196,9 @@ cv::Mat VirtualRig::picture_of_touch(const ScreenPoint& point) {
                            static_cast<float>(point.y_mm * y_px_per_mm - 0.5)),
                cv::Size2f(static_cast<float>(dot_mm * x_px_per_mm), static_cast<float>(dot_mm * y_px_per_mm)), 0},
               cv::Scalar::all(255), cv::FILLED, cv::LINE_AA);
-  return picture_of(shown, FingerPlace{point, 0});
+  std::vector<HandPose> hands(1, pose);
+  hands.front().finger = {point, 0};
+  return picture_of(shown, hands);
 }
 
 std::vector<ScreenPoint> calibration_points(const VirtualRigSettings& settings) {
@@ -173,13 +209,23 @@ std::vector<ScreenPoint> calibration_points(const VirtualRigSettings& settings) 
        {std::pair{0.41, 0.53}, {0.63, 0.53}, {0.24, 0.72}, {0.77, 0.72}, {0.18, 0.87}, {0.74, 0.87}, {0.34, 0.93}}) {
     wanted.push_back({x * width_mm, y * height_mm});
   }
-  const PinholeCamera camera(settings.camera, settings.focal_px, settings.image);
-  std::erase_if(wanted, [&](const ScreenPoint& point) {
+  const PinholeCamera camera(settings.camera, settings.focal_px, settings.image, settings.distortion_k1);
+  const auto seen = [&](const ScreenPoint& point) {
     const ImagePoint p = camera.project({point.x_mm, point.y_mm, 0});
-    return p.u_px < margin_px || p.v_px < margin_px || p.u_px > settings.image.width_px - margin_px ||
-           p.v_px > settings.image.height_px - margin_px;
-  });
-  return wanted;
+    return p.u_px >= margin_px && p.v_px >= margin_px && p.u_px <= settings.image.width_px - margin_px &&
+           p.v_px <= settings.image.height_px - margin_px;
+  };
+  const ScreenPoint well_seen{0.5 * width_mm, 0.88 * height_mm};
+  std::vector<ScreenPoint> points;
+  for (ScreenPoint point : wanted) {
+    for (int step = 0; step < 30 && !seen(point); ++step)
+      point = {point.x_mm + 0.1 * (well_seen.x_mm - point.x_mm), point.y_mm + 0.1 * (well_seen.y_mm - point.y_mm)};
+    const bool apart = std::none_of(points.begin(), points.end(), [&](const ScreenPoint& other) {
+      return std::hypot(point.x_mm - other.x_mm, point.y_mm - other.y_mm) < least_distance_mm;
+    });
+    if (apart && seen(point)) points.push_back(point);
+  }
+  return points;
 }
 
 }  // namespace telehug

@@ -7,7 +7,7 @@
 
 #include "capture/frame_source.hpp"
 #include "capture/pace.hpp"
-#include "capture/virtual_rig/rig_renderer.hpp"
+#include "capture/virtual_rig/picture_maker.hpp"
 #include "capture/virtual_rig/settings.hpp"
 
 namespace telehug {
@@ -17,6 +17,7 @@ struct VirtualTruth {
   bool contact = false;
   std::optional<ScreenPoint> screen;  // contact: the touched point; hovering: the fingertip's foot; nobody: none
   std::optional<double> hover_mm;     // only while hovering
+  std::optional<ScreenPoint> second;  // the same of the middle finger, if it points as well
 };
 
 // Why these settings can't be drawn, if so.
@@ -42,20 +43,24 @@ class VirtualRig final : public FrameSource {
   // Pictures for the calibration, as the camera would take them, with noise.
   [[nodiscard]] cv::Mat picture_of_background();
   [[nodiscard]] cv::Mat picture_of_triangle();  // black on white, one vertex in the middle of the screen's lower edge
-  [[nodiscard]] cv::Mat picture_of_touch(const ScreenPoint& point);  // on a white dot on a black screen
+  // On a white dot on a black screen; the pose's place does not matter.
+  [[nodiscard]] cv::Mat picture_of_touch(const ScreenPoint& point, const HandPose& pose = {});
+
+  // What the user does in the frame with this sequence number.
+  [[nodiscard]] std::vector<HandPose> hands(std::uint64_t sequence) const;
 
   [[nodiscard]] const VirtualRigSettings& settings() const noexcept { return settings_; }
-  [[nodiscard]] const PinholeCamera& camera() const noexcept { return renderer_.camera(); }
+  [[nodiscard]] const PinholeCamera& camera() const noexcept { return pictures_.camera(); }
 
  private:
-  [[nodiscard]] std::optional<FingerPlace> finger(std::uint64_t sequence) const;
+  [[nodiscard]] double script_time_s(std::uint64_t sequence) const;
   [[nodiscard]] Duration offset(std::uint64_t sequence) const;
-  cv::Mat picture_of(const cv::Mat& shown, const std::optional<FingerPlace>& finger);
+  cv::Mat picture_of(const cv::Mat& shown, const std::vector<HandPose>& hands);
 
   VirtualRigSettings settings_;
   const Clock& clock_;
   SleepUntil sleep_;
-  RigRenderer renderer_;
+  PictureMaker pictures_;
   bool open_ = false;
   Timestamp start_;
   std::uint64_t first_sequence_ = 0;  // of this opening
@@ -64,8 +69,9 @@ class VirtualRig final : public FrameSource {
   std::string last_error_;
 };
 
-// Nine points that a calibration of this rig can use, in the order in which they should be touched: the first lies in
-// the horizontal middle of the screen, the second 30 mm to the right of it and lower. All of them can be seen.
+// Up to nine points that a calibration of this rig can use, in the order in which they should be touched: the first
+// lies in the horizontal middle of the screen, the second 30 mm to the right of it and lower where that can be seen.
+// All of them can be seen; points that can't are moved towards the lower middle of the screen.
 std::vector<ScreenPoint> calibration_points(const VirtualRigSettings& settings);
 
 }  // namespace telehug

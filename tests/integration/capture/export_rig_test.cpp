@@ -3,7 +3,12 @@
 
 #include <gtest/gtest.h>
 
+#include <fstream>
+#include <iterator>
+#include <string>
+
 #include "capture/rig_directory.hpp"
+#include "capture/virtual_rig/virtual_rig.hpp"
 #include "doubles/fake_clock.hpp"
 #include "doubles/temporary_folder.hpp"
 #include "pictures/picture_file.hpp"
@@ -51,8 +56,31 @@ TEST(ExportedRig, OpensAgainWithItsTruth) {
   }
 }
 
+TEST(ExportedRig, OfARandomRigHasAllItsPartsAndGroups) {
+  const TemporaryFolder folder;
+  const RandomRig rig = random_rig(3, {320, 180});
+  ASSERT_TRUE(export_rig_directory(
+      rig, folder.path(), {.calibration_touches = 9, .sequence_frames = 10, .single_frames = 7, .hard_frames = 2}));
+  const auto opened = open_rig_directory(folder.path());
+  ASSERT_TRUE(opened) << opened.error().message;
+  EXPECT_GE(opened->calibration.size(), 5u);
+  ASSERT_NE(opened->part("hard"), nullptr);
+  EXPECT_EQ(opened->part("hard")->frames.size(), 2u);
+  EXPECT_EQ(opened->part("hard")->truth.size(), 4u);  // two fingers, then two hands
+  EXPECT_EQ(opened->part("sequence")->frames.size(), 10u);
+  const std::vector<TruthRow>& truth = opened->part("frames")->truth;
+  ASSERT_EQ(truth.size(), 7u);
+  EXPECT_TRUE(truth[0].contact);
+  EXPECT_FALSE(truth[0].tone.empty());
+  EXPECT_GE(truth[2].hover_mm.value_or(0), 5);
+  EXPECT_NE(truth[6].notes.find("away"), std::string::npos);
+  std::ifstream toml(folder.path() / "rig.toml");
+  const std::string text{std::istreambuf_iterator<char>(toml), {}};
+  EXPECT_NE(text.find("coat = \"" + rig.group.coat + "\""), std::string::npos);
+}
+
 TEST(ExportedRig, SaysWhereItCantBeWritten) {
-  const Status written = export_rig_directory({}, "/proc/nowhere");
+  const Status written = export_rig_directory(VirtualRigSettings{}, "/proc/nowhere");
   ASSERT_FALSE(written);
   EXPECT_NE(written.error().message.find("/proc/nowhere"), std::string::npos);
 }

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <opencv2/core/matx.hpp>
+#include <vector>
+
+#include "capture/virtual_rig/triangle_mesh.hpp"
+
+namespace telehug {
+
+// A ball swept from a to b while its radius changes, pressed flat along an axis: what hands are made of here.
+struct Limb {
+  cv::Vec3f a;
+  cv::Vec3f b;
+  float a_radius_mm = 0;
+  float b_radius_mm = 0;
+  cv::Vec3f flat_axis{0, 0, 1};  // length 1
+  float flatness = 1;            // thickness along flat_axis as a share of the width
+  float blend_mm = 2;            // how softly it goes over into what is there already
+  cv::Vec3f tint;                // linear
+  float gloss = 0;
+};
+
+// Distance from the surface of a limb, about: exact on the surface, negative inside.
+float distance_mm(const Limb& limb, const cv::Vec3f& place);
+
+// Box around limbs, wider by a margin.
+struct Box3 {
+  cv::Vec3f low;
+  cv::Vec3f high;
+
+  [[nodiscard]] bool holds(const cv::Vec3f& p, float margin) const;
+};
+Box3 box_around(const std::vector<Limb>& limbs, float margin_mm);
+
+// The smooth union of limbs, sampled on a grid, and its surface as a mesh by the method of surface nets (Gibson 1998):
+// one vertex in every cell that the surface crosses, at the mean of its crossings with the cell's edges.
+class DistanceGrid {
+ public:
+  DistanceGrid(const Box3& box, float step_mm);
+
+  // Blends with what was added before (polynomial smooth minimum, Quilez 2013).
+  void add(const Limb& limb);
+
+  // Vertices take tint and gloss of the nearest of `limbs`.
+  [[nodiscard]] TriangleMesh surface(const std::vector<Limb>& limbs) const;
+
+ private:
+  [[nodiscard]] float& at(int x, int y, int z) { return values_[index(x, y, z)]; }
+  [[nodiscard]] float at(int x, int y, int z) const { return values_[index(x, y, z)]; }
+  [[nodiscard]] std::size_t index(int x, int y, int z) const {
+    return (static_cast<std::size_t>(z) * static_cast<std::size_t>(size_[1]) + static_cast<std::size_t>(y)) *
+               static_cast<std::size_t>(size_[0]) +
+           static_cast<std::size_t>(x);
+  }
+  [[nodiscard]] cv::Vec3f gradient(const cv::Vec3f& cell_place) const;
+
+  cv::Vec3f origin_;
+  float step_mm_;
+  cv::Vec3i size_;
+  std::vector<float> values_;
+};
+
+}  // namespace telehug

@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "capture/virtual_rig/hand_shape.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "capture/virtual_rig/hand_skeleton.hpp"
+#include "capture/virtual_rig/hand_trimmings.hpp"
+
+namespace telehug {
+namespace {
+
+constexpr float finger_step_mm = 1;
+constexpr float hand_step_mm = 3;
+constexpr float patch_step_mm = 0.5F;
+
+// What the end of a finger does when it meets the screen, measured on a fine mesh of the end alone.
+struct EndContact {
+  cv::Vec3f lowest_mm;
+  cv::Vec3f contact_mm;
+  bool nail_first = false;
+};
+
+cv::Vec3f lowest_of(const TriangleMesh& mesh) {
+  const auto lowest = std::min_element(mesh.vertices.begin(), mesh.vertices.end(),
+                                       [](const auto& a, const auto& b) { return a.place_mm[2] < b.place_mm[2]; });
+  return lowest->place_mm;
+}
+
+EndContact contact_of(const FingerEnd& end, const std::vector<Limb>& finger, const HandLooks& looks, float press_mm) {
+  DistanceGrid grid(box_around({finger.front()}, 2), patch_step_mm);
+  for (const Limb& limb : finger)
+    grid.add(limb);
+  const TriangleMesh skin = grid.surface(finger);
+  EndContact contact;
+  contact.lowest_mm = lowest_of(skin);
+  if (looks.sleeve != Sleeve::glove) {
+    const cv::Vec3f nail_mm = lowest_of(nail(end, looks));
+    contact.nail_first = nail_mm[2] < contact.lowest_mm[2];
+    if (contact.nail_first) {
+      contact.lowest_mm = contact.contact_mm = nail_mm;
+      return contact;
+    }
+  }
+  // Mean of the area that would lie behind the screen; between mesh vertices the height is linear.
+  const float plane_mm = contact.lowest_mm[2] + press_mm;
+  cv::Vec3f sum;
+  float area = 0;
+  for (const MeshTriangle& triangle : skin.triangles) {
+    std::array<cv::Vec3f, 3> p;
+    for (std::size_t i = 0; i < 3; ++i)
+      p[i] = skin.vertices[triangle.corners[i]].place_mm;
+    const float below = static_cast<float>((p[0][2] < plane_mm) + (p[1][2] < plane_mm) + (p[2][2] < plane_mm)) / 3;
+    if (below == 0) continue;
+    const cv::Vec3f normal = (p[1] - p[0]).cross(p[2] - p[0]);
+    const float share = below * std::abs(normal[2]);
+    sum += (p[0] + p[1] + p[2]) * (share / 3);
+    area += share;
+  }
+  contact.contact_mm = area > 0 ? sum * (1 / area) : contact.lowest_mm;
+  contact.contact_mm[2] = plane_mm;
+  return contact;
+}
+
+cv::Vec3f place_of(const EndContact& end, const FingerPlace& finger) {
+  const cv::Vec3f foot(static_cast<float>(finger.foot.x_mm), static_cast<float>(finger.foot.y_mm),
+                       static_cast<float>(finger.hover_mm));
+  return foot - (finger.hover_mm > 0 ? end.lowest_mm : end.contact_mm);
+}
+
+std::vector<Limb> first_finger(const HandSkeleton& skeleton) {
+  return {skeleton.pointing_limbs[0], skeleton.pointing_limbs[1]};
+}
+
+}  // namespace
+
+cv::Vec3f HandShape::place_for(const FingerPlace& finger) const {
+  return place_of({lowest_mm, contact_mm, nail_first}, finger);
+}
+
+HandShape hand_shape(const HandPose& pose, const HandLooks& looks) {
+  const auto press_mm = static_cast<float>(pose.press_mm);
+  HandSkeleton skeleton = hand_skeleton(pose, looks, std::nullopt);
+  const EndContact end = contact_of(skeleton.ends[0], first_finger(skeleton), looks, press_mm);
+  if (pose.second) {
+    // Both ends are alike and alike turned, so what holds for the first holds for the second.
+    skeleton = hand_skeleton(pose, looks, place_of(end, *pose.second) - place_of(end, pose.finger));
+  }
+  HandShape shape{{}, skeleton.limbs, end.lowest_mm, end.contact_mm, end.nail_first};
+
+  const Box3 fine_box = box_around(skeleton.pointing_limbs, 2);
+  DistanceGrid fine(fine_box, finger_step_mm);
+  DistanceGrid coarse(box_around(skeleton.limbs, 2 * hand_step_mm), hand_step_mm);
+  for (const Limb& limb : skeleton.limbs) {
+    fine.add(limb);
+    coarse.add(limb);
+  }
+  shape.mesh = fine.surface(skeleton.limbs);
+  TriangleMesh rest = coarse.surface(skeleton.limbs);
+  std::erase_if(rest.triangles, [&](const MeshTriangle& triangle) {
+    return std::all_of(triangle.corners.begin(), triangle.corners.end(), [&](std::uint32_t corner) {
+      return fine_box.holds(rest.vertices[corner].place_mm, 2 * finger_step_mm);
+    });
+  });
+  shape.mesh.append(rest);
+  if (!skeleton.clothes.empty()) {
+    DistanceGrid cloth(box_around(skeleton.clothes, 2 * hand_step_mm), hand_step_mm);
+    for (const Limb& limb : skeleton.clothes)
+      cloth.add(limb);
+    shape.mesh.append(cloth.surface(skeleton.clothes));
+  }
+  if (looks.sleeve != Sleeve::glove) {
+    for (std::size_t i = 0; i < skeleton.ends.size(); ++i) {
+      HandLooks short_nails = looks;
+      if (i >= skeleton.pointing) short_nails.nail_mm = std::min(looks.nail_mm, 3.0);
+      shape.mesh.append(nail(skeleton.ends[i], short_nails));
+    }
+    if (looks.ring) shape.mesh.append(ring(skeleton.ring_finger_segment));
+  }
+  return shape;
+}
+
+}  // namespace telehug
