@@ -26,8 +26,10 @@ constexpr float learn_finger = 1.0F / 3600;
 BackgroundStrip::BackgroundStrip(const BorderStrip::Layout& layout, const BorderStrip& empty)
     : columns_(layout.columns),
       background_(empty),
-      inverse_variance_(layout.cells() * BorderStrip::channels),
+      inverse_deviation_(layout.cells() * BorderStrip::channels),
       distance_(layout.cells()),
+      difference_(layout.cells() * BorderStrip::channels),
+      new_edges_(layout.cells()),
       scratch_(static_cast<std::size_t>(layout.columns)) {
   for (int rail = 0; rail < BorderStrip::rails; ++rail)
     set_background(rail);
@@ -37,9 +39,9 @@ void BackgroundStrip::set_background(int rail) {
   for (int channel = 0; channel < BorderStrip::channels; ++channel) {
     const float* const level = background_.row(channel, rail);
     float* const inverse =
-        inverse_variance_.data() + static_cast<std::ptrdiff_t>(channel * BorderStrip::rails + rail) * columns_;
+        inverse_deviation_.data() + static_cast<std::ptrdiff_t>(channel * BorderStrip::rails + rail) * columns_;
     for (int i = 0; i < columns_; ++i) {
-      inverse[i] = 1.0F / (noise_level * noise_level + uneven_light * uneven_light * level[i] * level[i]);
+      inverse[i] = 1.0F / std::sqrt(noise_level * noise_level + uneven_light * uneven_light * level[i] * level[i]);
     }
   }
 }
@@ -67,11 +69,12 @@ void BackgroundStrip::level(const BorderStrip& strip, int rail) {
       const float g = gain[static_cast<std::size_t>(channel)];
       const float* const now = strip.row(channel, rail);
       const float* const then = background_.row(channel, rail);
-      const float* const inverse =
-          inverse_variance_.data() + static_cast<std::ptrdiff_t>(channel * BorderStrip::rails + rail) * columns_;
+      const auto start = static_cast<std::ptrdiff_t>(channel * BorderStrip::rails + rail) * columns_;
+      const float* const inverse = inverse_deviation_.data() + start;
+      float* const difference = difference_.data() + start;
       for (int i = 0; i < columns_; ++i) {
-        const float difference = g * (now[i] + dark) - (then[i] + dark);
-        distance[i] += difference * difference * inverse[i];
+        difference[i] = (g * (now[i] + dark) - (then[i] + dark)) * inverse[i];
+        distance[i] += difference[i] * difference[i];
       }
     }
     constexpr float limit = like_background * like_background * BorderStrip::channels;
@@ -103,6 +106,25 @@ const std::vector<float>& BackgroundStrip::distance(const BorderStrip& strip) {
   }
   unchanged_share_ = static_cast<double>(alike) / static_cast<double>(distance_.size());
   return distance_;
+}
+
+const std::vector<float>& BackgroundStrip::new_edges() {
+  std::fill(new_edges_.begin(), new_edges_.end(), 0.0F);
+  const auto plane = static_cast<std::ptrdiff_t>(distance_.size());
+  for (int channel = 0; channel < BorderStrip::channels; ++channel) {
+    const float* const difference = difference_.data() + channel * plane;
+    for (std::ptrdiff_t i = 1; i + 1 < plane; ++i) {
+      const float step = difference[i + 1] - difference[i - 1];
+      new_edges_[static_cast<std::size_t>(i)] += step * step;
+    }
+  }
+  for (int rail = 0; rail < BorderStrip::rails; ++rail) {
+    float* const edge = new_edges_.data() + static_cast<std::ptrdiff_t>(rail) * columns_;
+    edge[0] = edge[columns_ - 1] = 0;  // their neighbours lie on other rails
+    for (int i = 0; i < columns_; ++i)
+      edge[i] = std::min(std::sqrt(edge[i] / BorderStrip::channels), far);
+  }
+  return new_edges_;
 }
 
 void BackgroundStrip::adapt(const BorderStrip& strip, const std::vector<bool>& is_finger) {

@@ -11,7 +11,7 @@ BorderStrip::Layout::Layout(const BorderCurve& border, ImageSize size)
     : image(size),
       columns(0),
       column_px(std::max(1, static_cast<int>(std::lround(column_step_px * size.width_px / 1280.0)))),
-      rail_px(std::max(1.0, rail_step_px * size.height_px / 720.0)) {
+      scale(size.height_px / 720.0) {
   columns = size.width_px / column_px;
   first_row.reserve(cells());
   for (int rail = 0; rail < rails; ++rail) {

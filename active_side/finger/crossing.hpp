@@ -37,35 +37,45 @@ using Crossings = boost::container::static_vector<Crossing, max_contacts>;
 
 class CrossingFinder {
  public:
-  // Sum of the two edges' mean steps in standard deviations (each up to 5) and twice the share of foreground between
-  // them. Shadows and specks that were seen stay below 3.5, fingers of skin that is like what lies behind above 5.
+  // The sum of the two edges' mean steps in standard deviations (each up to 5), twice the share of foreground between
+  // them, less what speaks against a finger: foreground beside it, edges that are not parallel.
   static constexpr double least_strength = 4.5;
 
   explicit CrossingFinder(const BorderStrip::Layout& layout);
 
-  // `foreground` is what BackgroundStrip::distance() says of `bgr`'s strip. From the strongest on, no two overlap. The
-  // result lives until the next call. Allocates nothing.
-  const Crossings& find(const std::vector<float>& foreground, const cv::Mat& bgr, const BorderCurve& border);
+  // `foreground` and `new_edges` are what BackgroundStrip says of `bgr`'s strip. From the strongest on, no two overlap.
+  // The result lives until the next call. Allocates nothing.
+  const Crossings& find(const std::vector<float>& foreground, const std::vector<float>& new_edges, const cv::Mat& bgr,
+                        const BorderCurve& border);
 
  private:
-  static constexpr int slopes = 37;  // from -0.9 to 0.9
-  static constexpr std::size_t most_edges = 24;
+  static constexpr int slopes = 27;  // from -1.56 to 1.56
+  static constexpr std::size_t most_edges = 28;
   struct Peak {
     int column = 0;
     double slope = 0;
     float strength = 0;
   };
+  struct Pair {
+    double strength = 0;
+    Peak left;
+    Peak right;
+  };
+  static constexpr std::size_t max_pairs = most_edges * most_edges;
+  using Pairs = boost::container::static_vector<Pair, max_pairs>;
   using Peaks = boost::container::static_vector<Peak, most_edges>;
 
-  void find_steps(const std::vector<float>& foreground);
+  static void choose(Pairs& pairs);
+  void find_steps(const std::vector<float>& foreground, const std::vector<float>& new_edges);
   void find_edges(const std::vector<float>& steps, Peaks& peaks);
-  [[nodiscard]] double foreground_between(const std::vector<float>& foreground, const Peak& left,
-                                          const Peak& right) const;
-  [[nodiscard]] FingerEdge refined(const Peak& peak, const cv::Mat& bgr, const BorderCurve& border) const;
+  // On the rails next to the border, between columns given there with the slopes of edges.
+  [[nodiscard]] double foreground_share(const std::vector<float>& foreground, double from, double from_slope, double to,
+                                        double to_slope) const;
+  [[nodiscard]] FingerEdge followed(const Peak& peak, const cv::Mat& bgr, const BorderCurve& border) const;
 
   BorderStrip::Layout layout_;
-  std::vector<float> rises_;  // of the foreground at each cell, in standard deviations; rails by columns
-  std::vector<float> falls_;
+  std::vector<float> left_steps_;  // how much each cell looks like a finger's left edge; rails by columns
+  std::vector<float> right_steps_;
   std::vector<float> sums_;  // of one slope
   std::vector<float> best_;
   std::vector<int> best_slope_;

@@ -14,6 +14,7 @@ struct Finger {
   double length_px = 0;  // how far the tip reaches past the image of the screen's bottom edge (thesis: l), > 0
   double left_px = 0;    // columns of the finger's two edges at the border, left_px < right_px
   double right_px = 0;
+  double tip_radius_px = 0;  // of the curvature of its outline at the tip; 0: not known
 };
 
 using Fingers = boost::container::static_vector<Finger, max_contacts>;

@@ -58,7 +58,8 @@ const Fingers& FingerDetector::detect(const cv::Mat& bgr) {
     return fingers_;
   }
   strip_.sample(bgr, layout_);
-  const Crossings& crossings = crossing_finder_.find(background_.distance(strip_), bgr, border_);
+  const std::vector<float>& foreground = background_.distance(strip_);
+  const Crossings& crossings = crossing_finder_.find(foreground, background_.new_edges(), bgr, border_);
   for (const Crossing& crossing : crossings) {
     axes_.emplace_back(crossing, border_);
     std::fill(is_finger_.begin() + crossing.first_column, is_finger_.begin() + crossing.last_column + 1, true);
@@ -95,7 +96,8 @@ void FingerDetector::add_finger(const cv::Mat& bgr, std::size_t which) {
   const TipShape shape = fit_tip_shape(contour, guesses.front().finger_half_width_px, slope);
   const double length_px = shape.tip.v_px - border_.v_at(shape.tip.u_px);
   if (length_px <= 0 || shape.tip.v_px >= last_v || shape.tip.u_px < 0 || shape.tip.u_px > image_.width_px - 1) return;
-  fingers_.push_back({shape.tip, length_px, axis.centre_u(border_v) - a, axis.centre_u(border_v) + a});
+  fingers_.push_back({shape.tip, length_px, axis.centre_u(border_v) - a, axis.centre_u(border_v) + a,
+                      shape.half_width_px * shape.half_width_px / shape.half_length_px});
   contours_.push_back(contour);
 }
 
