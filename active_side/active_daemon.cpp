@@ -194,6 +194,7 @@ void ActiveDaemon::tell_state(Timestamp now) {
   own_state_.model = rig_ ? rig_->model : "";
   own_state_.peer = peer_.state(now);
   if (rig_) own_state_.nobody = rig_->pipeline.nobody_touched();
+  own_state_.camera_drift = rig_ ? rig_->pipeline.camera_drift() : DriftState::steady;
   state_ = own_state_;
 }
 

@@ -47,6 +47,7 @@ struct TouchThreadState {
   const char* model = "";  // of the calibration in use; empty: there is none
   PeerState peer;
   NobodyTouched nobody;
+  DriftState camera_drift = DriftState::steady;
   std::optional<SentTouch> last_touch;
 };
 

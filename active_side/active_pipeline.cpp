@@ -11,7 +11,7 @@ ActivePipeline::ActivePipeline(const Calibration& calibration, const ActivePipel
                                const SessionId& session, const Clock& clock, MetricsRegistry& metrics)
     : image_(calibration.image),
       screen_(calibration.screen),
-      model_(calibration.model()),
+      camera_watch_(calibration),
       detector_(calibration.border, calibration.image, options.detector),
       tracker_(options.tracker),
       builder_(session),
@@ -29,7 +29,9 @@ const TouchEvent* ActivePipeline::process(const Frame& frame, const BodyMap& map
   const Timestamp started = clock_.now();
   const Fingers& fingers = detector_.detect(frame.bgr);
   finger_latency_.record(clock_.now() - started);
-  const TouchedPoints touched = screen_points(fingers, model_, screen_, image_);
+  camera_watch_.look(frame.bgr, !fingers.empty(), started);
+  const TouchedPoints touched =
+      screen_points(camera_watch_.trusts_camera() ? fingers : Fingers{}, camera_watch_.model(), screen_, image_);
   frames_.add();
   frames_unfit_.set(detector_.unfit_pictures());
   fingers_off_screen_.add(touched.dropped);

@@ -4,6 +4,7 @@
 #include "body_map/body_map.hpp"
 #include "boxes_under.hpp"
 #include "calibration/calibration.hpp"
+#include "calibration/camera_watch.hpp"
 #include "capture/frame.hpp"
 #include "common/clock.hpp"
 #include "finger/thesis_detector.hpp"
@@ -35,6 +36,8 @@ class ActivePipeline {
   const TouchEvent* process_nothing(const BodyMap& map, bool sending);
 
   [[nodiscard]] const ContactStates& contacts() const noexcept { return *contacts_; }
+  // While the camera is `moved`, no finger touches.
+  [[nodiscard]] DriftState camera_drift() const noexcept { return camera_watch_.state(); }
   [[nodiscard]] const NobodyTouched& nobody_touched() const noexcept { return nobody_; }
 
  private:
@@ -42,7 +45,7 @@ class ActivePipeline {
 
   ImageSize image_;
   ScreenSize screen_;
-  TouchModel model_;
+  CameraWatch camera_watch_;
   ThesisDetector detector_;
   ContactTracker tracker_;
   TouchEventBuilder builder_;

@@ -75,6 +75,9 @@ Json ActiveDaemon::problems(const TouchThreadState& state, const FaceState& face
         problem_json("the other side is not ready: " + told->reason, "see `telehug status` on the other PC"));
   }
   if (state.camera_lost) list.push_back(problem_json(state.camera_problem, "plug the camera in, or correct [camera]"));
+  if (state.camera_drift == DriftState::moved || state.camera_drift == DriftState::unseen) {
+    list.push_back(problem_json(drift_text(state.camera_drift), "run `telehug-active calibrate`"));
+  }
   if (state.recording_over) list.push_back(problem_json("the recording is over", "start again to replay it"));
   if (!face.problem.empty()) {
     list.push_back(problem_json(face.problem, "touches are not sent until a face is found; check [body_map] picture"));
@@ -90,7 +93,8 @@ Json ActiveDaemon::status() const {
   }
   const FaceState face = state.face ? state.face->state() : FaceState{};
   const bool stopped = stop_.stopped() || peer_.stopped_by_peer();
-  const bool fault = state.camera_lost || !state.face || !face.problem.empty();
+  const bool fault =
+      state.camera_lost || state.camera_drift == DriftState::moved || !state.face || !face.problem.empty();
 
   Json counters = metrics_.counters_json();
   counters["touches_without_face"] = state.nobody.no_face;

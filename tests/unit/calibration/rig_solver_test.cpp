@@ -80,6 +80,19 @@ TEST(RigSolver, FindsTheOneBadTouch) {
   }
 }
 
+TEST(RigSolver, IsNotBentByBorderPointsOfAnotherEdge) {
+  RandomRigs random(14);
+  for (int i = 0; i < 20; ++i) {
+    const KnownRig rig = random.rig();
+    RigObservations seen = random.observe(rig, 9, 0, 0.3);
+    for (const std::size_t point : {3U, 4U, 11U})
+      seen.border[point].image.v_px += 15;
+    const auto solution = solve_rig(seen, {std::nullopt, PictureOrientation{}});
+    ASSERT_TRUE(solution.ok()) << solution.error().message;
+    ASSERT_LT(largest_error_mm(rig, solution->model, random), 1.5) << "rig " << i;
+  }
+}
+
 TEST(RigSolver, FindsNoBadTouchAmongGoodOnes) {
   RandomRigs random(7);
   int found = 0;
