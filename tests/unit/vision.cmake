@@ -8,6 +8,8 @@ telehug_test(test_rig_solver KIND unit SUBJECT touch
           unit/calibration/calibration_policy_test.cpp unit/calibration/rig_calibration_file_test.cpp unit/calibration/rig_accuracy_test.cpp unit/calibration/rig_camera_test.cpp
           unit/calibration/rig_solver_test.cpp unit/calibration/two_touch_calibration_test.cpp
   DEPS active_calibration)
+telehug_test(test_calibration_dot KIND unit SUBJECT touch SOURCES unit/calibration/calibration_dot_test.cpp
+  DEPS active_calibration opencv::imgproc)
 telehug_test(test_drift_watch KIND unit SUBJECT touch
   SOURCES doubles/allocation_counter.cpp unit/calibration/drift_watch_test.cpp DEPS active_calibration)
 telehug_test(test_finger KIND unit SUBJECT touch
