@@ -14,6 +14,7 @@ ActivePipeline::ActivePipeline(const Calibration& calibration, const ActivePipel
       model_(calibration.model),
       detector_(calibration.border, calibration.image, options.detector),
       tracker_(options.tracker),
+      gestures_(options.gestures),
       builder_(session),
       max_map_age_(options.max_map_age),
       clock_(clock),
@@ -45,7 +46,8 @@ const TouchEvent* ActivePipeline::report(const ScreenPoints& points, const BodyM
   const Timestamp started = clock_.now();
   // A camera that comes back stamps its first frame a little before the time at which it was last missed.
   frame_time = newest_ = std::max(frame_time, newest_ + Duration{1});
-  contacts_ = &tracker_.update(points, frame_time);
+  const auto body = map.version != 0 ? std::optional(map.grid) : std::nullopt;
+  contacts_ = &gestures_.update(tracker_.update(points, frame_time), body);
   const Timestamp tracked = clock_.now();
   const BoxedContacts boxed = sending ? boxes_under(*contacts_, map, max_map_age_, tracked, nobody_) : BoxedContacts{};
   const TouchEvent* event = builder_.build(boxed, map.shape, map.version, frame_time, clock_.now());

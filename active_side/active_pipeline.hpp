@@ -10,12 +10,14 @@
 #include "publish/touch_event_builder.hpp"
 #include "service/metrics.hpp"
 #include "touch/contact_tracker.hpp"
+#include "touch/gesture_recogniser.hpp"
 
 namespace telehug {
 
 struct ActivePipelineOptions {
   ThesisOptions detector;
   TrackerOptions tracker;
+  GestureOptions gestures;
   Duration max_map_age = 3s;
 };
 
@@ -45,6 +47,7 @@ class ActivePipeline {
   ThesisTouchModel model_;
   ThesisDetector detector_;
   ContactTracker tracker_;
+  GestureRecogniser gestures_;
   TouchEventBuilder builder_;
   Duration max_map_age_;
   const Clock& clock_;

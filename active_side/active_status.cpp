@@ -19,6 +19,7 @@ Json touch_json(const SentTouch& touch) {
           {"frame", touch.frame_sequence},
           {"contact", contact.id},
           {"phase", name_of(contact.phase)},
+          {"gesture", name_of(contact.gesture)},
           {"box", contact.box},
           {"columns", contact.grid.columns},
           {"rows", contact.grid.rows},

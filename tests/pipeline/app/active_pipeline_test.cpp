@@ -108,6 +108,16 @@ TEST_F(ActivePipelineTest, SendsOneDownThenMovesThenOneUp) {
   EXPECT_EQ(counter("frames"), 25U);
 }
 
+TEST_F(ActivePipelineTest, SaysWhatTheTouchIs) {
+  EXPECT_EQ(see(touching())->contacts.at(0).gesture, Gesture::none);
+  for (int i = 0; i < 12; ++i)
+    see(touching());
+  EXPECT_EQ(see(touching())->contacts.at(0).gesture, Gesture::hold);
+  const TouchEvent* event = miss(200ms);
+  ASSERT_NE(event, nullptr);
+  EXPECT_EQ(event->transitions.back().contact.gesture, Gesture::hold);
+}
+
 TEST_F(ActivePipelineTest, SaysNothingWhileItIsNotSending) {
   EXPECT_EQ(see(touching(), false), nullptr);
   EXPECT_EQ(see(touching(), false), nullptr);
