@@ -37,6 +37,7 @@ class ActivePipeline {
   const TouchEvent* process_nothing(const BodyMap& map, bool sending);
 
   [[nodiscard]] const ContactStates& contacts() const noexcept { return *contacts_; }
+  [[nodiscard]] const ScreenSize& screen() const noexcept { return screen_; }
   [[nodiscard]] const NobodyTouched& nobody_touched() const noexcept { return nobody_; }
 
  private:

@@ -76,6 +76,10 @@ Json ActiveDaemon::problems(const TouchThreadState& state, const FaceState& face
         problem_json("the other side is not ready: " + told->reason, "see `telehug status` on the other PC"));
   }
   if (state.camera_lost) list.push_back(problem_json(state.camera_problem, "plug the camera in, or correct [camera]"));
+  for (const LocalTouchState& output : local_touch_.states()) {
+    if (output.problem.empty()) continue;
+    list.push_back(problem_json(output.problem, "or turn it off in [local_touch]; it is tried again by itself"));
+  }
   if (state.recording_over) list.push_back(problem_json("the recording is over", "start again to replay it"));
   if (!face.problem.empty()) {
     list.push_back(problem_json(face.problem, "touches are not sent until a face is found; check [body_map] picture"));
@@ -101,7 +105,7 @@ Json ActiveDaemon::status() const {
   counters["messages_dropped"] =
       peer_.dropped() + felt_reader_->counters().malformed + felt_reader_->counters().invalid;
 
-  const char* open_why = state.camera_open      ? "a peer is connected"
+  const char* open_why = state.camera_open      ? state.peer.alive ? "a peer is connected" : "this PC uses the touches"
                          : state.recording_over ? "the recording is over"
                          : state.camera_lost    ? "it can't be used"
                          : stopped              ? "stopped"
@@ -124,8 +128,23 @@ Json ActiveDaemon::status() const {
                  {"counters", counters},
                  {"latency_ms", metrics_.latencies_json()}};
   if (face.map.version != 0) answer["face"]["rows"] = face.map.shape.rows;
+  for (const LocalTouchState& output : local_touch_.states())
+    answer["local_touch"][output.name] = output.open ? "on" : output.problem.empty() ? "waits for the camera" : "fails";
   if (state.last_touch) answer["last_touch"] = touch_json(*state.last_touch);
   return answer;
+}
+
+void ActiveDaemon::tell_local_touch() {
+  std::string works;
+  std::string problems;
+  for (const LocalTouchState& output : local_touch_.states()) {
+    if (output.open) works += (works.empty() ? "" : ", ") + output.name;
+    if (!output.problem.empty()) problems += (problems.empty() ? "" : "; ") + output.problem;
+  }
+  if (!works.empty() || !problems.empty()) {
+    say_local_touch_.say(problems.empty() ? spdlog::level::info : spdlog::level::warn,
+                         problems.empty() ? "touches are used on this PC: " + works : problems);
+  }
 }
 
 void ActiveDaemon::tell_watchers() {

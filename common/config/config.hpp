@@ -44,6 +44,13 @@ struct TouchConfig {
   int up_after_ms = 70;
 };
 
+struct LocalTouchConfig {
+  bool uinput = false;
+  bool tuio = false;
+  std::string tuio_host = "127.0.0.1";
+  int tuio_port = 3333;
+};
+
 struct BodyMapConfig {
   std::string picture;        // file or folder
   std::string face = "haar";  // haar
@@ -56,6 +63,7 @@ struct ActiveConfig {
   CameraConfig camera;
   RigConfig rig;
   TouchConfig touch;
+  LocalTouchConfig local_touch;
   BodyMapConfig body_map;
   PeerConfig peer;
   int heartbeat_timeout_ms = 250;  // [peer]

@@ -116,6 +116,16 @@ std::vector<Key> keys_of(ActiveConfig& c) {
       {"touch", "up_after_ms", &c.touch.up_after_ms, "ms", Range{0, 1000},
        "How long a finger must be unseen before its touch ends."},
 
+      {"local_touch",
+       "uinput",
+       &c.local_touch.uinput,
+       "",
+       {},
+       "true: the monitor is a touchscreen of this PC, too; needs the right to write /dev/uinput."},
+      {"local_touch", "tuio", &c.local_touch.tuio, "", {}, "true: touches are sent as TUIO 1.1 cursors."},
+      {"local_touch", "tuio_host", &c.local_touch.tuio_host, "", {}, "Where TUIO is sent to; it is not encrypted."},
+      {"local_touch", "tuio_port", &c.local_touch.tuio_port, "", Range{1, 65535}, "And to which UDP port."},
+
       {"body_map",
        "picture",
        &c.body_map.picture,
