@@ -195,6 +195,7 @@ void ActiveDaemon::tell_state(Timestamp now) {
   own_state_.camera_lost = camera_lost_;
   own_state_.recording_over = recording_over_;
   own_state_.camera_problem = camera_->last_error();
+  own_state_.camera_setup = camera_->is_open() ? camera_->setup() : "";
   own_state_.face = rig_ ? rig_->face : nullptr;
   own_state_.peer = peer_.state(now);
   if (rig_) own_state_.nobody = rig_->pipeline.nobody_touched();

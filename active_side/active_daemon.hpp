@@ -44,6 +44,7 @@ struct TouchThreadState {
   bool camera_lost = false;
   bool recording_over = false;
   std::string camera_problem;
+  std::string camera_setup;
   std::shared_ptr<FaceWorker> face;
   PeerState peer;
   NobodyTouched nobody;

@@ -127,6 +127,7 @@ Json ActiveDaemon::status() const {
                  {"detector", {{"name", "thesis"}, {"model", "thesis"}}},
                  {"counters", counters},
                  {"latency_ms", metrics_.latencies_json()}};
+  if (!state.camera_setup.empty()) answer["camera"]["setup"] = state.camera_setup;
   if (face.map.version != 0) answer["face"]["rows"] = face.map.shape.rows;
   for (const LocalTouchState& output : local_touch_.states())
     answer["local_touch"][output.name] = output.open ? "on" : output.problem.empty() ? "waits for the camera" : "fails";

@@ -31,6 +31,8 @@ struct CameraConfig {
   int width_px = 1280;
   int height_px = 720;
   int fps = 30;
+  std::string preset = "auto";  // keep, thesis, auto
+  int power_line_hz = 0;        // 0, 50, 60
 };
 
 struct RigConfig {
