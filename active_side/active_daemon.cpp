@@ -198,6 +198,7 @@ void ActiveDaemon::tell_state(Timestamp now) {
   own_state_.camera_setup = camera_->is_open() ? camera_->setup() : "";
   own_state_.face = rig_ ? rig_->face : nullptr;
   own_state_.peer = peer_.state(now);
+  own_state_.picture = rig_ && own_state_.camera_open ? rig_->pipeline.verdict() : FrameVerdict::good;
   if (rig_) own_state_.nobody = rig_->pipeline.nobody_touched();
   state_ = own_state_;
 }

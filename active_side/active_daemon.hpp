@@ -45,6 +45,7 @@ struct TouchThreadState {
   bool recording_over = false;
   std::string camera_problem;
   std::string camera_setup;
+  FrameVerdict picture = FrameVerdict::good;
   std::shared_ptr<FaceWorker> face;
   PeerState peer;
   NobodyTouched nobody;

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
+
 #include "body_map/body_map.hpp"
 #include "boxes_under.hpp"
 #include "calibration/calibration_file.hpp"
 #include "capture/frame.hpp"
+#include "capture/frame_check.hpp"
 #include "common/clock.hpp"
 #include "finger/thesis_detector.hpp"
 #include "publish/touch_event_builder.hpp"
@@ -15,6 +18,7 @@
 namespace telehug {
 
 struct ActivePipelineOptions {
+  FrameCheckOptions frames;
   ThesisOptions detector;
   TrackerOptions tracker;
   GestureOptions gestures;
@@ -38,13 +42,18 @@ class ActivePipeline {
 
   [[nodiscard]] const ContactStates& contacts() const noexcept { return *contacts_; }
   [[nodiscard]] const ScreenSize& screen() const noexcept { return screen_; }
+  // Of the newest picture.
+  [[nodiscard]] FrameVerdict verdict() const noexcept { return verdict_; }
   [[nodiscard]] const NobodyTouched& nobody_touched() const noexcept { return nobody_; }
 
  private:
-  const TouchEvent* report(const ScreenPoints& points, const BodyMap& map, bool sending, Timestamp frame_time);
+  void count(const FrameFindings& findings);
+  const TouchEvent* report(const ScreenPoints& points, bool may_begin, const BodyMap& map, bool sending,
+                           Timestamp frame_time);
 
   ImageSize image_;
   ScreenSize screen_;
+  FrameCheck frame_check_;
   ThesisTouchModel model_;
   ThesisDetector detector_;
   ContactTracker tracker_;
@@ -57,10 +66,15 @@ class ActivePipeline {
   ContactStates none_;
   const ContactStates* contacts_ = &none_;
   NobodyTouched nobody_;
+  FrameVerdict verdict_ = FrameVerdict::good;
+  bool light_settles_ = false;
   Counter& frames_;
-  Counter& frames_unfit_;
+  std::array<Counter*, 6> frames_by_verdict_;
+  Counter& frames_duplicate_;
+  Counter& light_changes_;
   Counter& fingers_off_screen_;
   Counter& touches_seen_;
+  LatencyHistogram& check_latency_;
   LatencyHistogram& finger_latency_;
   LatencyHistogram& touch_latency_;
   LatencyHistogram& box_latency_;

@@ -44,6 +44,27 @@ Json felt_json(const Felt& felt) {
           {"actuators", actuators}};
 }
 
+// Why the camera's pictures are not looked at; torn ones are single ones, which are only counted.
+Json picture_problem(FrameVerdict verdict) {
+  switch (verdict) {
+    case FrameVerdict::good:
+    case FrameVerdict::torn:
+      return {};
+    case FrameVerdict::other_size:
+      return problem_json("the camera's pictures have another size than those it was calibrated with",
+                          "set [camera] width_px and height_px as they were, or calibrate again");
+    case FrameVerdict::blank:
+      return problem_json("the camera sees nothing but black, white or one colour",
+                          "uncover it, turn on a light, or run `telehug-active camera tune`");
+    case FrameVerdict::frozen:
+      return problem_json("the camera delivers the same picture again and again", "unplug it and plug it in again");
+    case FrameVerdict::turned:
+      return problem_json("the camera's picture is upside down or mirrored",
+                          "turn it back as it was, or calibrate again");
+  }
+  return {};
+}
+
 }  // namespace
 
 void ActiveDaemon::answer_commands() {
@@ -76,6 +97,7 @@ Json ActiveDaemon::problems(const TouchThreadState& state, const FaceState& face
         problem_json("the other side is not ready: " + told->reason, "see `telehug status` on the other PC"));
   }
   if (state.camera_lost) list.push_back(problem_json(state.camera_problem, "plug the camera in, or correct [camera]"));
+  if (const Json picture = picture_problem(state.picture); !picture.is_null()) list.push_back(picture);
   for (const LocalTouchState& output : local_touch_.states()) {
     if (output.problem.empty()) continue;
     list.push_back(problem_json(output.problem, "or turn it off in [local_touch]; it is tried again by itself"));
@@ -95,7 +117,8 @@ Json ActiveDaemon::status() const {
   }
   const FaceState face = state.face ? state.face->state() : FaceState{};
   const bool stopped = stop_.stopped() || peer_.stopped_by_peer();
-  const bool fault = state.camera_lost || !state.face || !face.problem.empty();
+  const bool fault =
+      state.camera_lost || !picture_problem(state.picture).is_null() || !state.face || !face.problem.empty();
 
   Json counters = metrics_.counters_json();
   counters["touches_without_face"] = state.nobody.no_face;

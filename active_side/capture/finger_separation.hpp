@@ -3,15 +3,10 @@
 
 #include <opencv2/core/mat.hpp>
 
+#include "capture/border_place.hpp"
 #include "common/result.hpp"
 
 namespace telehug {
-
-// The image of the screen's bottom edge, v = v0_px + slope * u_px (as calibration/border_line.hpp has it).
-struct BorderPlace {
-  double v0_px = 0;
-  double slope = 0;
-};
 
 // How well a finger that rests across the screen's bottom border can be told from the border: Fisher's criterion
 // d' S^-1 d, where d is the difference between the mean colours of the finger's and of the border's pixels and S the
