@@ -12,42 +12,64 @@ ActivePipeline::ActivePipeline(const Calibration& calibration, const ActivePipel
     : image_(calibration.image),
       screen_(calibration.screen),
       camera_watch_(calibration),
+      frame_check_(calibration.image, {calibration.border.v0_px, calibration.border.slope}, options.frames),
       detector_(calibration.border, calibration.image, options.detector),
       tracker_(options.tracker),
+      gestures_(options.gestures),
       builder_(session),
       max_map_age_(options.max_map_age),
       clock_(clock),
       frames_(metrics.counter("frames")),
-      frames_unfit_(metrics.counter("frames_of_another_size")),
+      frames_by_verdict_{&metrics.counter("frames_good"),   &metrics.counter("frames_of_another_size"),
+                         &metrics.counter("frames_blank"),  &metrics.counter("frames_torn"),
+                         &metrics.counter("frames_frozen"), &metrics.counter("frames_turned")},
+      frames_duplicate_(metrics.counter("frames_duplicate")),
+      light_changes_(metrics.counter("light_changes")),
       fingers_off_screen_(metrics.counter("fingers_off_screen")),
       touches_seen_(metrics.counter("touches_seen")),
+      check_latency_(metrics.latency("frame_check")),
       finger_latency_(metrics.latency("finger")),
       touch_latency_(metrics.latency("touch")),
       box_latency_(metrics.latency("box")) {}
 
 const TouchEvent* ActivePipeline::process(const Frame& frame, const BodyMap& map, bool sending) {
   const Timestamp started = clock_.now();
+  const FrameFindings findings = frame_check_.check(frame.bgr);
+  const Timestamp checked = clock_.now();
+  check_latency_.record(checked - started);
+  count(findings);
+  if (findings.verdict != FrameVerdict::good) return report({}, false, map, sending, frame.time);
+
   const Fingers& fingers = detector_.detect(frame.bgr);
-  finger_latency_.record(clock_.now() - started);
+  finger_latency_.record(clock_.now() - checked);
   camera_watch_.look(frame.bgr, !fingers.empty(), started);
   const TouchedPoints touched =
       screen_points(camera_watch_.trusts_camera() ? fingers : Fingers{}, camera_watch_.model(), screen_, image_);
-  frames_.add();
-  frames_unfit_.set(detector_.unfit_pictures());
   fingers_off_screen_.add(touched.dropped);
-  return report(touched.points, map, sending, frame.time);
+  // What seems to begin while the light changes is the light's doing.
+  return report(touched.points, !findings.settling, map, sending, frame.time);
 }
 
 const TouchEvent* ActivePipeline::process_nothing(const BodyMap& map, bool sending) {
-  return report({}, map, sending, clock_.now());
+  return report({}, true, map, sending, clock_.now());
 }
 
-const TouchEvent* ActivePipeline::report(const ScreenPoints& points, const BodyMap& map, bool sending,
+void ActivePipeline::count(const FrameFindings& findings) {
+  frames_.add();
+  frames_by_verdict_[static_cast<std::size_t>(findings.verdict)]->add();
+  if (findings.duplicate) frames_duplicate_.add();
+  if (findings.settling && !light_settles_) light_changes_.add();
+  light_settles_ = findings.settling;
+  verdict_ = findings.verdict;
+}
+
+const TouchEvent* ActivePipeline::report(const ScreenPoints& points, bool may_begin, const BodyMap& map, bool sending,
                                          Timestamp frame_time) {
   const Timestamp started = clock_.now();
   // A camera that comes back stamps its first frame a little before the time at which it was last missed.
   frame_time = newest_ = std::max(frame_time, newest_ + Duration{1});
-  contacts_ = &tracker_.update(points, frame_time);
+  const auto body = map.version != 0 ? std::optional(map.grid) : std::nullopt;
+  contacts_ = &gestures_.update(tracker_.update(points, frame_time, may_begin), body);
   const Timestamp tracked = clock_.now();
   const BoxedContacts boxed = sending ? boxes_under(*contacts_, map, max_map_age_, tracked, nobody_) : BoxedContacts{};
   const TouchEvent* event = builder_.build(boxed, map.shape, map.version, frame_time, clock_.now());

@@ -1,22 +1,28 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
+
 #include "body_map/body_map.hpp"
 #include "boxes_under.hpp"
 #include "calibration/calibration.hpp"
 #include "calibration/camera_watch.hpp"
 #include "capture/frame.hpp"
+#include "capture/frame_check.hpp"
 #include "common/clock.hpp"
 #include "finger/thesis_detector.hpp"
 #include "publish/touch_event_builder.hpp"
 #include "service/metrics.hpp"
 #include "touch/contact_tracker.hpp"
+#include "touch/gesture_recogniser.hpp"
 
 namespace telehug {
 
 struct ActivePipelineOptions {
+  FrameCheckOptions frames;
   ThesisOptions detector;
   TrackerOptions tracker;
+  GestureOptions gestures;
   Duration max_map_age = 3s;
 };
 
@@ -36,18 +42,25 @@ class ActivePipeline {
   const TouchEvent* process_nothing(const BodyMap& map, bool sending);
 
   [[nodiscard]] const ContactStates& contacts() const noexcept { return *contacts_; }
+  [[nodiscard]] const ScreenSize& screen() const noexcept { return screen_; }
+  // Of the newest picture.
+  [[nodiscard]] FrameVerdict verdict() const noexcept { return verdict_; }
   // While the camera is `moved`, no finger touches.
   [[nodiscard]] DriftState camera_drift() const noexcept { return camera_watch_.state(); }
   [[nodiscard]] const NobodyTouched& nobody_touched() const noexcept { return nobody_; }
 
  private:
-  const TouchEvent* report(const ScreenPoints& points, const BodyMap& map, bool sending, Timestamp frame_time);
+  void count(const FrameFindings& findings);
+  const TouchEvent* report(const ScreenPoints& points, bool may_begin, const BodyMap& map, bool sending,
+                           Timestamp frame_time);
 
   ImageSize image_;
   ScreenSize screen_;
   CameraWatch camera_watch_;
+  FrameCheck frame_check_;
   ThesisDetector detector_;
   ContactTracker tracker_;
+  GestureRecogniser gestures_;
   TouchEventBuilder builder_;
   Duration max_map_age_;
   const Clock& clock_;
@@ -56,10 +69,15 @@ class ActivePipeline {
   ContactStates none_;
   const ContactStates* contacts_ = &none_;
   NobodyTouched nobody_;
+  FrameVerdict verdict_ = FrameVerdict::good;
+  bool light_settles_ = false;
   Counter& frames_;
-  Counter& frames_unfit_;
+  std::array<Counter*, 6> frames_by_verdict_;
+  Counter& frames_duplicate_;
+  Counter& light_changes_;
   Counter& fingers_off_screen_;
   Counter& touches_seen_;
+  LatencyHistogram& check_latency_;
   LatencyHistogram& finger_latency_;
   LatencyHistogram& touch_latency_;
   LatencyHistogram& box_latency_;

@@ -46,6 +46,8 @@ Result<std::unique_ptr<Rig>> make_rig(const ActiveConfig& config, const SessionI
   if (!finder) return finder.error();
 
   ActivePipelineOptions options;
+  const bool real_camera = config.camera.source.starts_with("webcam");
+  if (!real_camera) options.frames.frozen_after = 0;
   options.tracker.up_after = std::chrono::milliseconds(config.touch.up_after_ms);
   options.max_map_age = std::chrono::milliseconds(config.body_map.max_age_ms);
   BodyMapStepConfig step;

@@ -20,7 +20,8 @@ struct ContactState {
   Phase phase = Phase::down;
   ScreenPoint screen;
   double speed_mm_s = 0;
-  Timestamp frame_time;  // of the frame in which this was seen
+  Timestamp frame_time;             // of the frame in which this was seen
+  Gesture gesture = Gesture::none;  // so far; with `up`, what it was
 };
 
 using ContactStates = boost::container::static_vector<ContactState, max_contacts>;

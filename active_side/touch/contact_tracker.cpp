@@ -14,14 +14,14 @@ double distance_mm(const ScreenPoint& a, const ScreenPoint& b) {
 
 }  // namespace
 
-const ContactStates& ContactTracker::update(const ScreenPoints& points, Timestamp frame_time) {
+const ContactStates& ContactTracker::update(const ScreenPoints& points, Timestamp frame_time, bool may_begin) {
   const auto ended = [](const Track& track) { return track.state.phase == Phase::up; };
   tracks_.erase(std::remove_if(tracks_.begin(), tracks_.end(), ended), tracks_.end());
   Taken point_taken{};
   Taken track_taken{};
   match(points, frame_time, point_taken, track_taken);
   end_or_hold(frame_time, track_taken);
-  begin(points, frame_time, point_taken);
+  if (may_begin) begin(points, frame_time, point_taken);
   states_.clear();
   for (const Track& track : tracks_)
     states_.push_back(track.state);

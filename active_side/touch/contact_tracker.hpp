@@ -29,8 +29,8 @@ class ContactTracker {
   // The contacts of this frame, in the order of their ids: every one that lives once (down, then move, also while it is
   // held, with the time at which it was last seen), and those that end now (up, with this frame's time). The result
   // lives until the next call. `frame_time` must rise; with no frames at all (camera lost), call it with no points and
-  // the present time, so that contacts end.
-  const ContactStates& update(const ScreenPoints& points, Timestamp frame_time);
+  // the present time, so that contacts end. With `may_begin` false points that belong to no contact are passed over.
+  const ContactStates& update(const ScreenPoints& points, Timestamp frame_time, bool may_begin = true);
 
  private:
   struct Track {

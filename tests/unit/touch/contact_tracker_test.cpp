@@ -99,6 +99,16 @@ TEST(ContactTracker, KeepsIdentitiesOfFingersThatMoveTogether) {
   }
 }
 
+TEST(ContactTracker, BeginsNothingNewWhileItMayNotButGoesOn) {
+  ContactTracker tracker;
+  EXPECT_TRUE(tracker.update({{10, 10}}, at(0), false).empty());
+  const auto id = tracker.update({{10, 10}}, at(1))[0].id;
+  const ContactStates& states = tracker.update({{12, 10}, {200, 10}}, at(2), false);
+  ASSERT_EQ(states.size(), 1U);
+  EXPECT_EQ(states[0].id, id);
+  EXPECT_EQ(states[0].screen.x_mm, 12);
+}
+
 TEST(ContactTracker, SurvivesTimesThatDoNotRise) {
   ContactTracker tracker;
   tracker.update({{10, 10}}, at(5));
