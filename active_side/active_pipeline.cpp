@@ -45,7 +45,7 @@ const TouchEvent* ActivePipeline::report(const ScreenPoints& points, const BodyM
   const Timestamp started = clock_.now();
   // A camera that comes back stamps its first frame a little before the time at which it was last missed.
   frame_time = newest_ = std::max(frame_time, newest_ + Duration{1});
-  contacts_ = &tracker_.update(points, frame_time);
+  contacts_ = &tracker_.update(without_evidence(points), frame_time);
   const Timestamp tracked = clock_.now();
   const BoxedContacts boxed = sending ? boxes_under(*contacts_, map, max_map_age_, tracked, nobody_) : BoxedContacts{};
   const TouchEvent* event = builder_.build(boxed, map.shape, map.version, frame_time, clock_.now());

@@ -15,7 +15,7 @@ namespace telehug {
 
 struct ActivePipelineOptions {
   ThesisOptions detector;
-  TrackerOptions tracker;
+  TrackerOptions tracker{.every_finger_touches = true};  // the thesis' detector can't tell
   Duration max_map_age = 3s;
 };
 

@@ -21,6 +21,7 @@ struct ContactState {
   ScreenPoint screen;
   double speed_mm_s = 0;
   Timestamp frame_time;  // of the frame in which this was seen
+  double touching = 1;   // the probability that it still touches in the present frame; low while its end is uncertain
 };
 
 using ContactStates = boost::container::static_vector<ContactState, max_contacts>;
