@@ -38,7 +38,7 @@ const TouchEvent* ActivePipeline::process(const Frame& frame, const BodyMap& map
   const Timestamp checked = clock_.now();
   check_latency_.record(checked - started);
   count(findings);
-  if (findings.verdict != FrameVerdict::good) return report({}, false, map, sending, frame.time);
+  if (findings.verdict != FrameVerdict::good) return report({}, Scene::disturbed, map, sending, frame.time);
 
   const Fingers& fingers = detector_.detect(frame.bgr);
   finger_latency_.record(clock_.now() - checked);
@@ -47,11 +47,12 @@ const TouchEvent* ActivePipeline::process(const Frame& frame, const BodyMap& map
       screen_points(camera_watch_.trusts_camera() ? fingers : Fingers{}, camera_watch_.model(), screen_, image_);
   fingers_off_screen_.add(touched.dropped);
   // What seems to begin while the light changes is the light's doing.
-  return report(touched.points, !findings.settling, map, sending, frame.time);
+  const Scene scene = findings.settling ? Scene::disturbed : Scene::steady;
+  return report(touched.points, scene, map, sending, frame.time);
 }
 
 const TouchEvent* ActivePipeline::process_nothing(const BodyMap& map, bool sending) {
-  return report({}, true, map, sending, clock_.now());
+  return report({}, Scene::steady, map, sending, clock_.now());
 }
 
 void ActivePipeline::count(const FrameFindings& findings) {
@@ -63,13 +64,13 @@ void ActivePipeline::count(const FrameFindings& findings) {
   verdict_ = findings.verdict;
 }
 
-const TouchEvent* ActivePipeline::report(const ScreenPoints& points, bool may_begin, const BodyMap& map, bool sending,
+const TouchEvent* ActivePipeline::report(const ScreenPoints& points, Scene scene, const BodyMap& map, bool sending,
                                          Timestamp frame_time) {
   const Timestamp started = clock_.now();
   // A camera that comes back stamps its first frame a little before the time at which it was last missed.
   frame_time = newest_ = std::max(frame_time, newest_ + Duration{1});
   const auto body = map.version != 0 ? std::optional(map.grid) : std::nullopt;
-  contacts_ = &gestures_.update(tracker_.update(points, frame_time, may_begin), body);
+  contacts_ = &gestures_.update(tracker_.update(without_evidence(points), frame_time, scene), body);
   const Timestamp tracked = clock_.now();
   const BoxedContacts boxed = sending ? boxes_under(*contacts_, map, max_map_age_, tracked, nobody_) : BoxedContacts{};
   const TouchEvent* event = builder_.build(boxed, map.shape, map.version, frame_time, clock_.now());

@@ -21,7 +21,7 @@ namespace telehug {
 struct ActivePipelineOptions {
   FrameCheckOptions frames;
   ThesisOptions detector;
-  TrackerOptions tracker;
+  TrackerOptions tracker{.every_finger_touches = true};  // the thesis' detector can't tell
   GestureOptions gestures;
   Duration max_map_age = 3s;
 };
@@ -51,7 +51,7 @@ class ActivePipeline {
 
  private:
   void count(const FrameFindings& findings);
-  const TouchEvent* report(const ScreenPoints& points, bool may_begin, const BodyMap& map, bool sending,
+  const TouchEvent* report(const ScreenPoints& points, Scene scene, const BodyMap& map, bool sending,
                            Timestamp frame_time);
 
   ImageSize image_;
