@@ -197,7 +197,9 @@ void ActiveDaemon::tell_state(Timestamp now) {
   own_state_.camera_problem = camera_->last_error();
   own_state_.camera_setup = camera_->is_open() ? camera_->setup() : "";
   own_state_.face = rig_ ? rig_->face : nullptr;
+  own_state_.detector = rig_ ? rig_->detector : "";
   own_state_.model = rig_ ? rig_->model : "";
+  own_state_.knows_background = !rig_ || rig_->pipeline.knows_background();
   own_state_.peer = peer_.state(now);
   own_state_.picture = rig_ && own_state_.camera_open ? rig_->pipeline.verdict() : FrameVerdict::good;
   if (rig_) own_state_.nobody = rig_->pipeline.nobody_touched();
@@ -219,8 +221,10 @@ void ActiveDaemon::load_rig_if_changed() {
   auto rig = make_rig(config_, session_, clock_, metrics_);
   const std::string problem = rig ? "" : rig.error().message;
   if (rig) {
+    const std::string& note = (*rig)->note;
+    say_rig_.say(note.empty() ? spdlog::level::info : spdlog::level::warn,
+                 fmt::format("calibration: {}{}{}", calibration_path_.string(), note.empty() ? "" : "; ", note));
     new_rig_.put(*std::move(rig));
-    say_rig_.say(spdlog::level::info, fmt::format("calibration: {}", calibration_path_.string()));
   } else {
     say_rig_.say(spdlog::level::warn, problem);
   }

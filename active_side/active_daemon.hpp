@@ -47,7 +47,9 @@ struct TouchThreadState {
   std::string camera_setup;
   FrameVerdict picture = FrameVerdict::good;
   std::shared_ptr<FaceWorker> face;
-  const char* model = "";  // of the calibration in use; empty: there is none
+  std::string detector;  // in use; empty: there is no calibration
+  std::string model;     // likewise
+  bool knows_background = true;
   PeerState peer;
   NobodyTouched nobody;
   DriftState camera_drift = DriftState::steady;

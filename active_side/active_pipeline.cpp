@@ -2,18 +2,28 @@
 #include "active_pipeline.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "touch/screen_points.hpp"
 
 namespace telehug {
+namespace {
 
-ActivePipeline::ActivePipeline(const Calibration& calibration, const ActivePipelineOptions& options,
-                               const SessionId& session, const Clock& clock, MetricsRegistry& metrics)
+BorderPlace place_of(const BorderLine& border) {
+  return {border.v0_px, border.slope};
+}
+
+}  // namespace
+
+ActivePipeline::ActivePipeline(const Calibration& calibration, AnyDetector detector,
+                               const ActivePipelineOptions& options, const SessionId& session, const Clock& clock,
+                               MetricsRegistry& metrics)
     : image_(calibration.image),
       screen_(calibration.screen),
-      camera_watch_(calibration),
-      frame_check_(calibration.image, {calibration.border.v0_px, calibration.border.slope}, options.frames),
-      detector_(calibration.border, calibration.image, options.detector),
+      upright_(calibration.image, is_upside_down(calibration)),
+      camera_watch_(upright(calibration)),
+      frame_check_(calibration.image, place_of(upright(calibration).border), options.frames),
+      detector_(std::move(detector)),
       tracker_(options.tracker),
       gestures_(options.gestures),
       builder_(session),
@@ -26,6 +36,7 @@ ActivePipeline::ActivePipeline(const Calibration& calibration, const ActivePipel
       frames_duplicate_(metrics.counter("frames_duplicate")),
       light_changes_(metrics.counter("light_changes")),
       fingers_off_screen_(metrics.counter("fingers_off_screen")),
+      background_relearned_(metrics.counter("background_relearned")),
       touches_seen_(metrics.counter("touches_seen")),
       check_latency_(metrics.latency("frame_check")),
       finger_latency_(metrics.latency("finger")),
@@ -34,25 +45,32 @@ ActivePipeline::ActivePipeline(const Calibration& calibration, const ActivePipel
 
 const TouchEvent* ActivePipeline::process(const Frame& frame, const BodyMap& map, bool sending) {
   const Timestamp started = clock_.now();
-  const FrameFindings findings = frame_check_.check(frame.bgr);
+  const cv::Mat& picture = upright_.of(frame.bgr);
+  const FrameFindings findings = frame_check_.check(picture);
   const Timestamp checked = clock_.now();
   check_latency_.record(checked - started);
   count(findings);
   if (findings.verdict != FrameVerdict::good) return report({}, Scene::disturbed, map, sending, frame.time);
 
-  const Fingers& fingers = detector_.detect(frame.bgr);
+  const Fingers& fingers = detect(detector_, picture);
+  if (!findings.settling) adapt(detector_, started);
   finger_latency_.record(clock_.now() - checked);
-  camera_watch_.look(frame.bgr, !fingers.empty(), started);
-  const TouchedPoints touched =
-      screen_points(camera_watch_.trusts_camera() ? fingers : Fingers{}, camera_watch_.model(), screen_, image_);
+  camera_watch_.look(picture, !fingers.empty() || !knows_background(), started);
+  const bool believed = knows_background() && camera_watch_.trusts_camera();
+  const TouchedPoints touched = screen_points(believed ? fingers : Fingers{}, camera_watch_.model(), screen_, image_);
   fingers_off_screen_.add(touched.dropped);
   // What seems to begin while the light changes is the light's doing.
-  const Scene scene = findings.settling ? Scene::disturbed : Scene::steady;
-  return report(touched.points, scene, map, sending, frame.time);
+  const bool disturbed = findings.settling || !knows_background();
+  return report(touched.points, disturbed ? Scene::disturbed : Scene::steady, map, sending, frame.time);
 }
 
 const TouchEvent* ActivePipeline::process_nothing(const BodyMap& map, bool sending) {
   return report({}, Scene::steady, map, sending, clock_.now());
+}
+
+bool ActivePipeline::knows_background() const noexcept {
+  const BackgroundLearner* const learner = background(detector_);
+  return learner == nullptr || learner->trusts();
 }
 
 void ActivePipeline::count(const FrameFindings& findings) {
@@ -62,6 +80,7 @@ void ActivePipeline::count(const FrameFindings& findings) {
   if (findings.settling && !light_settles_) light_changes_.add();
   light_settles_ = findings.settling;
   verdict_ = findings.verdict;
+  if (const BackgroundLearner* const learner = background(detector_)) background_relearned_.set(learner->relearned());
 }
 
 const TouchEvent* ActivePipeline::report(const ScreenPoints& points, Scene scene, const BodyMap& map, bool sending,

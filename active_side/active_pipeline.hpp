@@ -10,18 +10,18 @@
 #include "capture/frame.hpp"
 #include "capture/frame_check.hpp"
 #include "common/clock.hpp"
-#include "finger/thesis_detector.hpp"
+#include "finger/any_detector.hpp"
 #include "publish/touch_event_builder.hpp"
 #include "service/metrics.hpp"
 #include "touch/contact_tracker.hpp"
 #include "touch/gesture_recogniser.hpp"
+#include "upright_picture.hpp"
 
 namespace telehug {
 
 struct ActivePipelineOptions {
   FrameCheckOptions frames;
-  ThesisOptions detector;
-  TrackerOptions tracker{.every_finger_touches = true};  // the thesis' detector can't tell
+  TrackerOptions tracker{.every_finger_touches = true};  // detectors can't tell
   GestureOptions gestures;
   Duration max_map_age = 3s;
 };
@@ -30,9 +30,9 @@ struct ActivePipelineOptions {
 // wire. One thread uses it; it allocates nothing per frame.
 class ActivePipeline {
  public:
-  // Throws std::invalid_argument if no finger could be seen with this calibration. `clock`, `metrics` outlive it.
-  ActivePipeline(const Calibration& calibration, const ActivePipelineOptions& options, const SessionId& session,
-                 const Clock& clock, MetricsRegistry& metrics);
+  // `detector` is made for the upright() calibration. `clock`, `metrics` outlive it.
+  ActivePipeline(const Calibration& calibration, AnyDetector detector, const ActivePipelineOptions& options,
+                 const SessionId& session, const Clock& clock, MetricsRegistry& metrics);
 
   // The event to send for this frame, or null. Nobody is touched while `sending` is false; contacts that were being
   // sent end. Valid until the next call.
@@ -45,6 +45,8 @@ class ActivePipeline {
   [[nodiscard]] const ScreenSize& screen() const noexcept { return screen_; }
   // Of the newest picture.
   [[nodiscard]] FrameVerdict verdict() const noexcept { return verdict_; }
+  // False: the detector learns how the rig looks with nobody there; until then no finger touches.
+  [[nodiscard]] bool knows_background() const noexcept;
   // While the camera is `moved`, no finger touches.
   [[nodiscard]] DriftState camera_drift() const noexcept { return camera_watch_.state(); }
   [[nodiscard]] const NobodyTouched& nobody_touched() const noexcept { return nobody_; }
@@ -56,9 +58,10 @@ class ActivePipeline {
 
   ImageSize image_;
   ScreenSize screen_;
+  UprightPicture upright_;
   CameraWatch camera_watch_;
   FrameCheck frame_check_;
-  ThesisDetector detector_;
+  AnyDetector detector_;
   ContactTracker tracker_;
   GestureRecogniser gestures_;
   TouchEventBuilder builder_;
@@ -76,6 +79,7 @@ class ActivePipeline {
   Counter& frames_duplicate_;
   Counter& light_changes_;
   Counter& fingers_off_screen_;
+  Counter& background_relearned_;
   Counter& touches_seen_;
   LatencyHistogram& check_latency_;
   LatencyHistogram& finger_latency_;

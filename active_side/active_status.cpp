@@ -100,6 +100,10 @@ Json ActiveDaemon::problems(const TouchThreadState& state, const FaceState& face
   if (state.camera_drift == DriftState::moved || state.camera_drift == DriftState::unseen) {
     list.push_back(problem_json(drift_text(state.camera_drift), "run `telehug-active calibrate`"));
   }
+  if (state.camera_open && !state.knows_background) {
+    list.push_back(problem_json("telehug learns how bezel and desk look with nobody there; no touch begins meanwhile",
+                                "keep your hands away from the screen for a second"));
+  }
   if (const Json picture = picture_problem(state.picture); !picture.is_null()) list.push_back(picture);
   for (const LocalTouchState& output : local_touch_.states()) {
     if (output.problem.empty()) continue;
@@ -120,9 +124,8 @@ Json ActiveDaemon::status() const {
   }
   const FaceState face = state.face ? state.face->state() : FaceState{};
   const bool stopped = stop_.stopped() || peer_.stopped_by_peer();
-  const bool fault =
-      state.camera_lost || state.camera_drift == DriftState::moved || !picture_problem(state.picture).is_null() ||
-      !state.face || !face.problem.empty();
+  const bool fault = state.camera_lost || state.camera_drift == DriftState::moved ||
+                     !picture_problem(state.picture).is_null() || !state.face || !face.problem.empty();
 
   Json counters = metrics_.counters_json();
   counters["touches_without_face"] = state.nobody.no_face;
@@ -151,7 +154,7 @@ Json ActiveDaemon::status() const {
                  {"camera", {{"name", camera_name_}, {"open", state.camera_open}, {"why", open_why}}},
                  {"screen", {{"name", face.screen}, {"open", face.open}}},
                  {"face", {{"found", face.map.version != 0}, {"map_version", face.map.version}}},
-                 {"detector", {{"name", "thesis"}, {"model", state.model}}},
+                 {"detector", {{"name", state.detector}, {"model", state.model}}},
                  {"counters", counters},
                  {"latency_ms", metrics_.latencies_json()}};
   if (!state.camera_setup.empty()) answer["camera"]["setup"] = state.camera_setup;

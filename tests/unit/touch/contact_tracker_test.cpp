@@ -105,9 +105,9 @@ TEST(ContactTracker, KeepsIdentitiesOfFingersThatMoveTogether) {
 
 TEST(ContactTracker, BeginsNothingNewWhileTheSceneIsDisturbedButGoesOn) {
   ContactTracker tracker({.every_finger_touches = true});
-  EXPECT_TRUE(tracker.update({{10, 10}}, at(0), Scene::disturbed).empty());
-  const auto id = tracker.update({{10, 10}}, at(1))[0].id;
-  const ContactStates& states = tracker.update({{12, 10}, {200, 10}}, at(2), Scene::disturbed);
+  EXPECT_TRUE(tracker.update(touches({{10, 10}}), at(0), Scene::disturbed).empty());
+  const auto id = tracker.update(touches({{10, 10}}), at(1))[0].id;
+  const ContactStates& states = tracker.update(touches({{12, 10}, {200, 10}}), at(2), Scene::disturbed);
   ASSERT_EQ(states.size(), 1U);
   EXPECT_EQ(states[0].id, id);
   EXPECT_EQ(states[0].screen.x_mm, 12);
