@@ -71,15 +71,16 @@ class Evaluation {
 
   std::vector<ScreenPoint> tracked(const ScreenPoints& points, Timestamp time) {
     std::vector<ScreenPoint> places;
-    for (const ContactState& state : tracker_.update(points, time)) {
-      if (state.phase != Phase::up) places.push_back(state.screen);
+    for (const ContactState& state : tracker_.update(without_evidence(points), time)) {
+      const bool more_likely_touches = state.phase != Phase::up && state.touching >= 0.5;
+      if (more_likely_touches) places.push_back(state.screen);
     }
     return places;
   }
 
   EvalTouchReport& report_;
   AnyDetector detector_;
-  ContactTracker tracker_;
+  ContactTracker tracker_{{.every_finger_touches = true}};
 };
 
 Result<AnyDetector> make_detector(const std::string& choice, const Calibration& calibration, const RigDirectory& rig) {

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 
 namespace telehug {
 namespace {
@@ -145,17 +144,10 @@ void BackgroundStrip::adapt(const BorderStrip& strip, const std::vector<bool>& i
   }
 }
 
-cv::Mat BackgroundStrip::picture() const {
-  cv::Mat picture(BorderStrip::rails, columns_, CV_8UC3);
-  for (int rail = 0; rail < BorderStrip::rails; ++rail) {
-    std::uint8_t* const out = picture.ptr<std::uint8_t>(rail);
-    for (int channel = 0; channel < BorderStrip::channels; ++channel) {
-      const float* const level = background_.row(channel, rail);
-      for (int i = 0; i < columns_; ++i)
-        out[BorderStrip::channels * i + channel] = cv::saturate_cast<std::uint8_t>(level[i]);
-    }
-  }
-  return picture;
+void BackgroundStrip::set(const BorderStrip& empty) {
+  background_ = empty;
+  for (int rail = 0; rail < BorderStrip::rails; ++rail)
+    set_background(rail);
 }
 
 }  // namespace telehug

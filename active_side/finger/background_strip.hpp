@@ -36,8 +36,8 @@ class BackgroundStrip {
   // there) slowly, those under fingers - `is_finger`, one flag a column, or all if the scene is disturbed - hardly.
   void adapt(const BorderStrip& strip, const std::vector<bool>& is_finger);
 
-  // The strip as a picture (CV_8UC3, columns by rails) to keep it in a file, and back.
-  [[nodiscard]] cv::Mat picture() const;
+  // From now on `empty` is what the strip looks like with nobody there. Allocates nothing.
+  void set(const BorderStrip& empty);
 
  private:
   void set_background(int rail);

@@ -48,4 +48,26 @@ void BorderStrip::sample(const cv::Mat& bgr, const Layout& layout) {
   }
 }
 
+cv::Mat BorderStrip::picture() const {
+  cv::Mat picture(rails, columns_, CV_8UC3);
+  for (int rail = 0; rail < rails; ++rail) {
+    std::uint8_t* const out = picture.ptr<std::uint8_t>(rail);
+    for (int channel = 0; channel < channels; ++channel) {
+      for (int i = 0; i < columns_; ++i)
+        out[channels * i + channel] = cv::saturate_cast<std::uint8_t>(row(channel, rail)[i]);
+    }
+  }
+  return picture;
+}
+
+void BorderStrip::set(const cv::Mat& picture) {
+  for (int rail = 0; rail < rails; ++rail) {
+    const std::uint8_t* const in = picture.ptr<std::uint8_t>(rail);
+    for (int channel = 0; channel < channels; ++channel) {
+      for (int i = 0; i < columns_; ++i)
+        row(channel, rail)[i] = in[channels * i + channel];
+    }
+  }
+}
+
 }  // namespace telehug

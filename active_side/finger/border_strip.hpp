@@ -43,6 +43,10 @@ class BorderStrip {
   // `bgr` is CV_8UC3 of the layout's size. Allocates nothing.
   void sample(const cv::Mat& bgr, const Layout& layout);
 
+  // As a picture (CV_8UC3, columns by rails) to keep it in a file, and back.
+  [[nodiscard]] cv::Mat picture() const;
+  void set(const cv::Mat& picture);
+
   [[nodiscard]] int columns() const noexcept { return columns_; }
   // The rail's row of one channel, columns() long.
   [[nodiscard]] const float* row(int channel, int rail) const noexcept { return values_.data() + start(channel, rail); }

@@ -18,12 +18,16 @@ constexpr int least_width_px = 320;
 constexpr int least_height_px = 180;
 constexpr double beside_px = 30;  // columns of the edge map beside the finger
 
-ImageSize checked_size(const cv::Mat& empty) {
-  if (empty.type() != CV_8UC3) throw std::invalid_argument("the picture of the empty rig is not in colour");
-  if (empty.cols < least_width_px || empty.rows < least_height_px) {
+ImageSize checked(ImageSize image) {
+  if (image.width_px < least_width_px || image.height_px < least_height_px) {
     throw std::invalid_argument("pictures of this size are too small to look for fingers");
   }
-  return {empty.cols, empty.rows};
+  return image;
+}
+
+ImageSize size_of(const cv::Mat& empty) {
+  if (empty.type() != CV_8UC3) throw std::invalid_argument("the picture of the empty rig is not in colour");
+  return checked({empty.cols, empty.rows});
 }
 
 BorderStrip sampled(const cv::Mat& bgr, const BorderStrip::Layout& layout) {
@@ -35,11 +39,15 @@ BorderStrip sampled(const cv::Mat& bgr, const BorderStrip::Layout& layout) {
 }  // namespace
 
 FingerDetector::FingerDetector(const BorderCurve& border, const cv::Mat& empty)
+    : FingerDetector(border, size_of(empty), sampled(empty, BorderStrip::Layout(border, size_of(empty)))) {}
+
+FingerDetector::FingerDetector(const BorderCurve& border, ImageSize image, const std::optional<BorderStrip>& background)
     : border_(border),
-      image_(checked_size(empty)),
+      image_(checked(image)),
       layout_(border, image_),
-      strip_(sampled(empty, layout_)),
-      background_(layout_, strip_),
+      strip_(layout_),
+      background_(layout_, background.value_or(BorderStrip(layout_))),
+      learner_(layout_, background.has_value()),
       crossing_finder_(layout_),
       edges_(image_),
       colours_(image_),
@@ -58,14 +66,18 @@ const Fingers& FingerDetector::detect(const cv::Mat& bgr) {
     return fingers_;
   }
   strip_.sample(bgr, layout_);
+  if (!learner_.knows()) return fingers_;
   const std::vector<float>& foreground = background_.distance(strip_);
   const Crossings& crossings = crossing_finder_.find(foreground, background_.new_edges(), bgr, border_);
-  for (const Crossing& crossing : crossings) {
+  for (const Crossing& crossing : crossings)
     axes_.emplace_back(crossing, border_);
+  for (std::size_t i = 0; i < axes_.size(); ++i) {
+    const std::size_t fingers_before = fingers_.size();
+    add_finger(bgr, i);
+    if (fingers_.size() == fingers_before) continue;
+    const Crossing& crossing = crossings[i];
     std::fill(is_finger_.begin() + crossing.first_column, is_finger_.begin() + crossing.last_column + 1, true);
   }
-  for (std::size_t i = 0; i < axes_.size(); ++i)
-    add_finger(bgr, i);
   return fingers_;
 }
 
@@ -101,8 +113,8 @@ void FingerDetector::add_finger(const cv::Mat& bgr, std::size_t which) {
   contours_.push_back(contour);
 }
 
-void FingerDetector::adapt() {
-  background_.adapt(strip_, is_finger_);
+void FingerDetector::adapt(Timestamp now) {
+  learner_.update(background_, strip_, is_finger_, now);
 }
 
 }  // namespace telehug

@@ -15,10 +15,13 @@
 
 #include <cstdint>
 #include <opencv2/core/mat.hpp>
+#include <optional>
 #include <vector>
 
 #include "calibration/border_curve.hpp"
+#include "common/clock.hpp"
 #include "common/units.hpp"
+#include "finger/background_learner.hpp"
 #include "finger/background_strip.hpp"
 #include "finger/crossing.hpp"
 #include "finger/finger.hpp"
@@ -32,12 +35,19 @@ class FingerDetector {
   // if it is no such picture or too small.
   FingerDetector(const BorderCurve& border, const cv::Mat& empty);
 
+  // With the background that was kept, or none: then adapt() learns it, and until it has, there are no fingers. Throws
+  // std::invalid_argument if pictures of this size are too small.
+  FingerDetector(const BorderCurve& border, ImageSize image, const std::optional<BorderStrip>& background);
+
   // From the strongest crossing on. `bgr` must be CV_8UC3 of the size of `empty`; other pictures hold no finger and are
   // counted. The result lives until the next call. Allocates nothing.
   const Fingers& detect(const cv::Mat& bgr);
 
-  // After detect() of a frame of a live camera: learns how the rig looks now.
-  void adapt();
+  // After detect() of a live camera's frame that can be believed: learns how the rig looks now. `now` never decreases.
+  // Allocates nothing.
+  void adapt(Timestamp now);
+  // Until it knows how the rig looks, and while everything looks different, what detect() finds means nothing.
+  [[nodiscard]] const BackgroundLearner& background() const noexcept { return learner_; }
 
   // The outlines of the last frame's fingers, in their order.
   [[nodiscard]] const boost::container::static_vector<TipContour, max_contacts>& contours() const noexcept {
@@ -55,6 +65,7 @@ class FingerDetector {
   BorderStrip::Layout layout_;
   BorderStrip strip_;
   BackgroundStrip background_;
+  BackgroundLearner learner_;
   CrossingFinder crossing_finder_;
   EdgeMap edges_;
   FingerColours colours_;

@@ -20,6 +20,7 @@
 
 #include "body_map/vitruvian_grid.hpp"
 #include "boxes_under.hpp"
+#include "capture/frame_check.hpp"
 #include "capture/rig_directory.hpp"
 #include "doubles/allocation_counter.hpp"
 #include "eval/rig_calibration.hpp"
@@ -97,7 +98,7 @@ BodyMap body_map(const ScreenSize& screen) {
 std::vector<Figure> measure_path(const Recording& recording, bool continuity) {
   const Calibration& calibration = recording.calibration;
   ThesisDetector detector(calibration.border, calibration.image, {.continuity = continuity});
-  ContactTracker tracker;
+  ContactTracker tracker({.every_finger_touches = true});
   TouchEventBuilder builder("0123456789abcdef0123456789abcdef");
   const BodyMap map = body_map(calibration.screen);
   NobodyTouched nobody;
@@ -117,7 +118,7 @@ std::vector<Figure> measure_path(const Recording& recording, bool continuity) {
     const TouchedPoints touched = screen_points(fingers, calibration.model(), calibration.screen, calibration.image);
     const double model_ms = watch.lap_ms();
     const Timestamp time = Timestamp{} + i * 33ms;
-    const ContactStates& contacts = tracker.update(touched.points, time);
+    const ContactStates& contacts = tracker.update(without_evidence(touched.points), time);
     const double track_ms = watch.lap_ms();
     const BoxedContacts boxed = boxes_under(contacts, map, Duration::max(), time, nobody);
     builder.build(boxed, map.shape, map.version, time, time);
@@ -130,6 +131,24 @@ std::vector<Figure> measure_path(const Recording& recording, bool continuity) {
       figures[f].samples.push_back(values[f]);
   }
   return figures;
+}
+
+// Whether a picture can be believed, before anything is looked for in it.
+Figure measure_frame_check(const Recording& recording) {
+  const Calibration& calibration = recording.calibration;
+  FrameCheck check(calibration.image, {calibration.border.v0_px, calibration.border.slope});
+  Figure figure{"touch.frame_check_1280x720", "ms", {}};
+  double most_change = 0;
+  for (int i = 0; i < warm_up_rounds + rounds; ++i) {
+    // A picture that lies in no cache, as one that was just decoded beside others does at worst.
+    const cv::Mat& picture = recording.pictures[static_cast<std::size_t>(i) % recording.pictures.size()];
+    Stopwatch watch;
+    most_change = std::max(most_change, check.check(picture).desk_change);
+    const double ms = watch.lap_ms();
+    if (i >= warm_up_rounds) figure.samples.push_back(ms);
+  }
+  fmt::print("{:.2f} of the desk's samples change at most from frame to frame\n", most_change);
+  return figure;
 }
 
 // The part of `detect` that cuts and filters: along the whole border, and the finger down to the picture's bottom.
@@ -203,6 +222,7 @@ void run(const std::string& json_file) {
   std::vector<Figure> figures = measure_path(recording, true);
   const std::vector<Figure> without = measure_path(recording, false);
   figures.insert(figures.begin() + 1, measure_preprocessing(recording));
+  figures.push_back(measure_frame_check(recording));
   figures.insert(figures.end(), without.begin(), without.end());
   figures.push_back(measure_jpeg(TELEHUG_FIXTURES "/rig2/background.jpg"));
   if (!allocations_are_counted()) {

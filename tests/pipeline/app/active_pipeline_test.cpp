@@ -64,7 +64,12 @@ class ActivePipelineTest : public testing::Test {
   MetricsRegistry metrics;
   BodyMap map;
   Frame frame;
-  ActivePipeline pipeline{calibration(), ActivePipelineOptions{}, example_session, clock, metrics};
+  static ActivePipelineOptions options() {
+    ActivePipelineOptions options;
+    options.frames.frozen_after = 0;  // the drawn pictures stand still
+    return options;
+  }
+  ActivePipeline pipeline{calibration(), options(), example_session, clock, metrics};
 };
 
 TEST_F(ActivePipelineTest, SendsTheBoxUnderTheFinger) {
@@ -106,6 +111,16 @@ TEST_F(ActivePipelineTest, SendsOneDownThenMovesThenOneUp) {
   EXPECT_EQ(see(nobody()), nullptr) << "there is nothing more to say";
   EXPECT_EQ(counter("touches_seen"), 1U);
   EXPECT_EQ(counter("frames"), 25U);
+}
+
+TEST_F(ActivePipelineTest, SaysWhatTheTouchIs) {
+  EXPECT_EQ(see(touching())->contacts.at(0).gesture, Gesture::none);
+  for (int i = 0; i < 12; ++i)
+    see(touching());
+  EXPECT_EQ(see(touching())->contacts.at(0).gesture, Gesture::hold);
+  const TouchEvent* event = miss(200ms);
+  ASSERT_NE(event, nullptr);
+  EXPECT_EQ(event->transitions.back().contact.gesture, Gesture::hold);
 }
 
 TEST_F(ActivePipelineTest, SaysNothingWhileItIsNotSending) {
@@ -156,6 +171,52 @@ TEST_F(ActivePipelineTest, CountsPicturesOfAnotherSizeAndGoesOn) {
   EXPECT_EQ(see(cv::Mat()), nullptr);
   EXPECT_EQ(counter("frames_of_another_size"), 2U);
   EXPECT_NE(see(touching()), nullptr);
+}
+
+TEST_F(ActivePipelineTest, EndsATouchAndBeginsNoneWhileThePicturesCantBeBelieved) {
+  ASSERT_NE(see(touching()), nullptr);
+  const cv::Mat black(image.height_px, image.width_px, CV_8UC3, cv::Scalar(0, 0, 0));
+  const TouchEvent* event = nullptr;
+  for (int i = 0; i < 5; ++i)
+    event = see(black);
+  ASSERT_NE(event, nullptr);
+  EXPECT_EQ(event->transitions.back().contact.phase, Phase::up);
+  EXPECT_TRUE(event->contacts.empty());
+  EXPECT_EQ(pipeline.verdict(), FrameVerdict::blank);
+  EXPECT_EQ(counter("frames_blank"), 5U);
+  for (int i = 0; i < 8; ++i)
+    event = see(touching());
+  EXPECT_EQ(pipeline.verdict(), FrameVerdict::good);
+  ASSERT_NE(event, nullptr);
+  EXPECT_EQ(event->contacts.size(), 1U) << "it recovers by itself";
+}
+
+TEST_F(ActivePipelineTest, EndsATouchOfACameraThatHangs) {
+  ActivePipeline hanging(calibration(), ActivePipelineOptions{}, example_session, clock, metrics);
+  const TouchEvent* event = nullptr;
+  for (int i = 0; i < 20; ++i) {
+    clock.advance(frame_period);
+    map.seen = frame.time = clock.now();
+    frame.bgr = touching();
+    event = hanging.process(frame, map, true);
+  }
+  ASSERT_NE(event, nullptr);
+  EXPECT_TRUE(event->contacts.empty());
+  EXPECT_EQ(hanging.verdict(), FrameVerdict::frozen);
+  EXPECT_GT(counter("frames_frozen"), 0U);
+}
+
+TEST_F(ActivePipelineTest, BeginsNoTouchWhileTheLightChangesButGoesOnWithThoseThereAre) {
+  cv::Mat dark;
+  nobody().convertTo(dark, CV_8UC3, 0.5);
+  see(dark);
+  EXPECT_EQ(see(touching()), nullptr) << "the lamp was switched on in this frame";
+  for (int i = 0; i < 6; ++i)
+    EXPECT_EQ(see(touching()), nullptr);
+  const TouchEvent* event = see(touching());
+  ASSERT_NE(event, nullptr);
+  EXPECT_EQ(event->contacts.at(0).phase, Phase::down);
+  EXPECT_EQ(counter("light_changes"), 1U);
 }
 
 TEST_F(ActivePipelineTest, LetsTimeRiseWhenAPictureIsOlderThanTheLastMiss) {
