@@ -9,8 +9,9 @@ telehug_test(test_rig_solver KIND unit SUBJECT touch
   DEPS active_calibration)
 telehug_test(test_finger KIND unit SUBJECT touch
   SOURCES doubles/allocation_counter.cpp unit/finger/aligned_patch_test.cpp unit/finger/finger_colour_test.cpp
-          unit/finger/finger_edges_test.cpp unit/finger/thesis_detector_test.cpp
-  DEPS active_finger opencv::imgproc)
+          unit/finger/finger_edges_test.cpp unit/finger/mirror_evidence_test.cpp
+          unit/finger/recorded_mirrors_test.cpp unit/finger/thesis_detector_test.cpp
+  DEPS active_finger telehug_pictures opencv::imgproc)
 telehug_test(test_touch KIND unit SUBJECT touch
   SOURCES doubles/allocation_counter.cpp unit/touch/contact_tracker_test.cpp unit/touch/screen_points_test.cpp
   DEPS active_touch active_calibration)
