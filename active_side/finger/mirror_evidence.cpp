@@ -180,7 +180,9 @@ Numbered<float, most_rows> mirror_begins(const StripBelowTip& strip, double lean
 
 MirrorEvidence mirror_evidence(const cv::Mat& bgr, const FingerOutline& finger, const ScreenNormal& normal) {
   const FingerEnd end = end_of(finger);
-  if (!(end.half_width_px > 3 && end.half_width_px < bgr.cols && normal.px_per_mm > 0)) return {};
+  const bool in_picture =
+      finger.tip.v_px >= 0 && finger.tip.v_px < bgr.rows && end.centre_u_px >= 0 && end.centre_u_px < bgr.cols;
+  if (!(in_picture && end.half_width_px > 3 && end.half_width_px < bgr.cols && normal.px_per_mm > 0)) return {};
   const StripBelowTip strip(bgr, {end.centre_u_px, finger.tip.v_px}, normal.u_per_v, end.half_width_px);
   // Upwards the centre line moves by -slope; against the screen's normal. Below, mirrored, it leans the same way.
   const double lean = normal.u_per_v - finger.centre_slope;
