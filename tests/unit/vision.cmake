@@ -17,8 +17,9 @@ telehug_test(test_drift_watch KIND unit SUBJECT touch
   SOURCES doubles/allocation_counter.cpp unit/calibration/drift_watch_test.cpp DEPS active_calibration)
 telehug_test(test_finger KIND unit SUBJECT touch
   SOURCES doubles/allocation_counter.cpp unit/finger/aligned_patch_test.cpp unit/finger/finger_colour_test.cpp
-          unit/finger/finger_edges_test.cpp unit/finger/thesis_detector_test.cpp
-  DEPS active_finger opencv::imgproc)
+          unit/finger/finger_edges_test.cpp unit/finger/mirror_evidence_test.cpp
+          unit/finger/recorded_mirrors_test.cpp unit/finger/thesis_detector_test.cpp
+  DEPS active_finger telehug_pictures opencv::imgproc)
 telehug_test(test_touch KIND unit SUBJECT touch
   SOURCES doubles/allocation_counter.cpp unit/touch/contact_tracker_test.cpp
           unit/touch/gesture_recogniser_test.cpp unit/touch/screen_points_test.cpp
