@@ -53,7 +53,7 @@ std::vector<Figure> measure() {
     hands[0].finger = {{150 + 0.4 * i, 180 + 0.3 * i}, 0};
     if (two) {
       HandPose left = hands[0];
-      left.looks = HandLooks{.left = true};
+      left.looks.emplace().left = true;
       left.finger.foot.x_mm -= 100;
       hands.push_back(left);
     }
