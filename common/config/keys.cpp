@@ -83,7 +83,8 @@ std::string place_of(const std::vector<Key>& keys, std::initializer_list<std::st
 std::vector<Key> keys_of(ActiveConfig& c) {
   Rows rows{
       {"camera", "source", &c.camera.source, "", parsed_by(parse_camera_source),
-       "\"webcam\", \"replay:DIR\" (a recording) or \"virtual\" (a simulated rig)."},
+       "\"webcam\", \"replay:DIR\" (a recording), \"virtual\" (a simulated rig) or \"virtual:SEED\" (one drawn at "
+       "random)."},
       {"camera",
        "device",
        &c.camera.device,
