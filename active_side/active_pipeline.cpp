@@ -50,7 +50,11 @@ const TouchEvent* ActivePipeline::process(const Frame& frame, const BodyMap& map
   const Timestamp checked = clock_.now();
   check_latency_.record(checked - started);
   count(findings);
-  if (findings.verdict != FrameVerdict::good) return report({}, Scene::disturbed, map, sending, frame.time);
+  if (findings.verdict != FrameVerdict::good) {
+    // Torn pictures are single ones, which end no touch; the others last.
+    const Scene scene = findings.verdict == FrameVerdict::torn ? Scene::disturbed : Scene::steady;
+    return report({}, scene, map, sending, frame.time);
+  }
 
   const Fingers& fingers = detect(detector_, picture);
   if (!findings.settling) adapt(detector_, started);
