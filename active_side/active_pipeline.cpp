@@ -65,7 +65,7 @@ const TouchEvent* ActivePipeline::process(const Frame& frame, const BodyMap& map
   fingers_off_screen_.add(touched.dropped);
   // What seems to begin while the light changes is the light's doing.
   const bool disturbed = findings.settling || !knows_background();
-  return report(touched.points, disturbed ? Scene::disturbed : Scene::steady, map, sending, frame.time);
+  return report(touched.fingers, disturbed ? Scene::disturbed : Scene::steady, map, sending, frame.time);
 }
 
 const TouchEvent* ActivePipeline::process_nothing(const BodyMap& map, bool sending) {
@@ -87,13 +87,13 @@ void ActivePipeline::count(const FrameFindings& findings) {
   if (const BackgroundLearner* const learner = background(detector_)) background_relearned_.set(learner->relearned());
 }
 
-const TouchEvent* ActivePipeline::report(const ScreenPoints& points, Scene scene, const BodyMap& map, bool sending,
+const TouchEvent* ActivePipeline::report(const FingerObservations& fingers, Scene scene, const BodyMap& map, bool sending,
                                          Timestamp frame_time) {
   const Timestamp started = clock_.now();
   // A camera that comes back stamps its first frame a little before the time at which it was last missed.
   frame_time = newest_ = std::max(frame_time, newest_ + Duration{1});
   const auto body = map.version != 0 ? std::optional(map.grid) : std::nullopt;
-  contacts_ = &gestures_.update(tracker_.update(without_evidence(points), frame_time, scene), body);
+  contacts_ = &gestures_.update(tracker_.update(fingers, frame_time, scene), body);
   const Timestamp tracked = clock_.now();
   const BoxedContacts boxed = sending ? boxes_under(*contacts_, map, max_map_age_, tracked, nobody_) : BoxedContacts{};
   const TouchEvent* event = builder_.build(boxed, map.shape, map.version, frame_time, clock_.now());

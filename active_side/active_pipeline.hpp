@@ -53,7 +53,7 @@ class ActivePipeline {
 
  private:
   void count(const FrameFindings& findings);
-  const TouchEvent* report(const ScreenPoints& points, Scene scene, const BodyMap& map, bool sending,
+  const TouchEvent* report(const FingerObservations& fingers, Scene scene, const BodyMap& map, bool sending,
                            Timestamp frame_time);
 
   ImageSize image_;

@@ -8,6 +8,7 @@
 #include "finger/edge_map.hpp"
 #include "finger/finger_axis.hpp"
 #include "finger/finger_colours.hpp"
+#include "finger/mirror_evidence.hpp"
 #include "finger/tip_search.hpp"
 #include "finger/tip_shape.hpp"
 
@@ -28,6 +29,32 @@ ImageSize checked(ImageSize image) {
 ImageSize size_of(const cv::Mat& empty) {
   if (empty.type() != CV_8UC3) throw std::invalid_argument("the picture of the empty rig is not in colour");
   return checked({empty.cols, empty.rows});
+}
+
+// How the picture shows the screen's normal at a fingertip.
+std::optional<ScreenNormal> screen_normal(const RigCamera& camera, const ImagePoint& tip) {
+  constexpr double height_mm = 5;
+  const auto foot = camera.screen_point(tip);
+  if (!foot) return std::nullopt;
+  const auto above = camera.project(RigVector{foot->x_mm, foot->y_mm, height_mm});
+  if (!above) return std::nullopt;
+  const double du = above->u_px - tip.u_px;
+  const double dv = above->v_px - tip.v_px;
+  if (dv > -1) return std::nullopt;  // seen from straight in front: there is no mirror image beside the finger
+  return ScreenNormal{du / dv, std::hypot(du, dv) / height_mm};
+}
+
+FingerOutline outline(const FingerAxis& axis, const TipContour& contour, const ImagePoint& tip) {
+  FingerOutline finger;
+  const double v = axis.border_v_px();
+  finger.tip = tip;
+  finger.reference_v_px = v;
+  finger.centre_u_px = axis.centre_u(v);
+  finger.centre_slope = axis.slope();
+  finger.half_width_px = axis.half_width(v);
+  finger.half_width_slope = (axis.half_width(tip.v_px) - axis.half_width(v)) / std::max(tip.v_px - v, 1.0);
+  finger.contour.assign(contour.points.begin(), contour.points.end());
+  return finger;
 }
 
 BorderStrip sampled(const cv::Mat& bgr, const BorderStrip::Layout& layout) {
@@ -108,8 +135,13 @@ void FingerDetector::add_finger(const cv::Mat& bgr, std::size_t which) {
   const TipShape shape = fit_tip_shape(contour, guesses.front().finger_half_width_px, slope);
   const double length_px = shape.tip.v_px - border_.v_at(shape.tip.u_px);
   if (length_px <= 0 || shape.tip.v_px >= last_v || shape.tip.u_px < 0 || shape.tip.u_px > image_.width_px - 1) return;
-  fingers_.push_back({shape.tip, length_px, axis.centre_u(border_v) - a, axis.centre_u(border_v) + a,
-                      shape.half_width_px * shape.half_width_px / shape.half_length_px});
+  Finger finger{shape.tip, length_px, axis.centre_u(border_v) - a, axis.centre_u(border_v) + a};
+  finger.width_px = 2 * shape.half_width_px;
+  if (const auto normal = camera_ ? screen_normal(*camera_, shape.tip) : std::nullopt) {
+    finger.px_per_mm = normal->px_per_mm;
+    finger.mirror = mirror_evidence(bgr, outline(axis, contour, shape.tip), *normal);
+  }
+  fingers_.push_back(finger);
   contours_.push_back(contour);
 }
 

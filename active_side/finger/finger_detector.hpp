@@ -11,6 +11,7 @@
 //   guesses    rows where its tip may be                           tip_search
 //   contour    the tip's outline                                   tip_contour
 //   tip        the outline's foremost point                        tip_shape
+//   mirror     does its mirror image begin there                   mirror_evidence
 #pragma once
 
 #include <cstdint>
@@ -19,6 +20,7 @@
 #include <vector>
 
 #include "calibration/border_curve.hpp"
+#include "calibration/rig_camera.hpp"
 #include "common/clock.hpp"
 #include "common/units.hpp"
 #include "finger/background_learner.hpp"
@@ -38,6 +40,9 @@ class FingerDetector {
   // With the background that was kept, or none: then adapt() learns it, and until it has, there are no fingers. Throws
   // std::invalid_argument if pictures of this size are too small.
   FingerDetector(const BorderCurve& border, ImageSize image, const std::optional<BorderStrip>& background);
+
+  // With the camera the detector also says what the screen's mirror image tells of each finger.
+  void know_camera(const RigCamera& camera) { camera_ = camera; }
 
   // From the strongest crossing on. `bgr` must be CV_8UC3 of the size of `empty`; other pictures hold no finger and are
   // counted. The result lives until the next call. Allocates nothing.
@@ -62,6 +67,7 @@ class FingerDetector {
 
   BorderCurve border_;
   ImageSize image_;
+  std::optional<RigCamera> camera_;
   BorderStrip::Layout layout_;
   BorderStrip strip_;
   BackgroundStrip background_;

@@ -4,6 +4,7 @@
 #include <opencv2/core/mat.hpp>
 
 #include "finger/finger_outline.hpp"
+#include "finger/mirror_state.hpp"
 
 namespace telehug {
 
@@ -11,15 +12,6 @@ namespace telehug {
 struct ScreenNormal {
   double u_per_v = 0;    // its slope; 0: straight up, as without roll
   double px_per_mm = 0;  // length of a millimetre, > 0; about f / (y - y0)
-};
-
-enum class MirrorState { unknown, touching, hovering };
-
-struct MirrorEvidence {
-  MirrorState state = MirrorState::unknown;
-  double gap_px = 0;      // from the fingertip to the tip of its mirror image; 0 while unknown
-  double gap_mm = 0;      // between fingertip and screen: half of gap_px in mm
-  double confidence = 0;  // in the state, 0.5 to 1; 0 while unknown
 };
 
 // Whether a finger touches the screen, from its mirror image in this one picture. A point z in front of the screen and

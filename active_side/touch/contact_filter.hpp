@@ -32,10 +32,10 @@ struct ContactFilterOptions {
   // Hands: a touch meets the screen faster than this, a hand that comes to rest in the air is slower in the end.
   double impact_mm_s = 60;
   double lift_mm_s = 150;     // mean speed of a finger in the first frame after it left the screen
-  double drift_mm_s = 8;     // of a hand that nothing supports, in height
+  double drift_mm_s = 8;      // of a hand that nothing supports, in height
   double air_mm_s2 = 5000;    // acceleration of a hand in the air
   double slide_mm_s2 = 6000;  // and along the screen: a stroke of 200 mm in 0.35 s reaches 1 m/s with 9 m/s2
-  double across_mm_s = 60;   // speed along the screen while it lands or is lifted
+  double across_mm_s = 60;    // speed along the screen while it lands or is lifted
   double slide_mm_s = 100;    // of a stroke that begins
   // How often these happen, a second.
   double land_rate = 4;
@@ -79,7 +79,7 @@ class ContactFilter {
 
   struct Step {
     double seconds = 0;
-    double log_r = 0;    // change of log r
+    double log_r = 0;  // change of log r
     double radial_mm = 0;
     double across_mm = 0;
     double noise_radial_mm = 0;

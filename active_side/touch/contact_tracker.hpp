@@ -24,8 +24,8 @@ struct TrackerOptions {
   // that moves fast (1 m/s) goes 33 mm from one frame to the next. Along the line through the camera's foot, where a
   // change of height moves it, three times as far.
   double gate_mm = 40;
-  // A contact whose finger is not seen is held at its last place, and ends with the first of these two; or before, where
-  // it more likely was lifted out of sight.
+  // A contact whose finger is not seen is held at its last place, and ends with the first of these two; or before,
+  // where it more likely was lifted out of sight.
   int up_after_missed_frames = 3;
   Duration up_after = 100ms;            // since it was last seen
   Duration up_after_disturbed = 300ms;  // likewise, while the scene is disturbed
@@ -52,8 +52,8 @@ using HoveringFingers = boost::container::static_vector<HoveringFinger, max_cont
 //
 // What waiting buys: with a mirror image a touch is down in the frame in which it begins or in the next one, without
 // one when the approach has ended, in the next one. It is up in the frame in which the finger leaves, or the next one.
-// A hand that brakes softly and rests a few millimetres off a matt screen can't be told from a touch by its motion, only
-// by its width, and then only from about 10 mm on: see down_above.
+// A hand that brakes softly and rests a few millimetres off a matt screen can't be told from a touch by its motion,
+// only by its width, and then only from about 10 mm on: see down_above.
 class ContactTracker {
  public:
   explicit ContactTracker(const TrackerOptions& options = {}) : options_(options) {}
@@ -72,9 +72,9 @@ class ContactTracker {
   struct Track {
     ContactFilter filter;
     OneEuroFilter smoothing;
-    ScreenPoint seen;        // as observed
+    ScreenPoint seen;  // as observed
     Timestamp seen_at;
-    double x_mm_s = 0;       // of `seen`
+    double x_mm_s = 0;  // of `seen`
     double y_mm_s = 0;
     int missed_frames = 0;
     std::optional<ContactState> contact;

@@ -6,27 +6,19 @@
 
 #include "common/messages.hpp"
 #include "common/units.hpp"
+#include "finger/mirror_state.hpp"
 #include "touch/contact_state.hpp"
 
 namespace telehug {
 
-// What the screen's mirror image of a finger says: a finger that touches meets its reflection, one that hovers leaves a
-// gap of twice its height.
-enum class MirrorVerdict : std::uint8_t { unknown = 0, touching = 1, hovering = 2 };
-
-struct MirrorEvidence {
-  MirrorVerdict verdict = MirrorVerdict::unknown;
-  double confidence = 0;  // 0..1; 1: as sure as such a verdict gets (see ContactFilterOptions::mirror_log_ratio)
-  double gap_mm = 0;      // height above the screen, if hovering
-};
-
 // One finger in one frame, read as if it touched the screen. Seen from the camera (height z0 above the screen's plane,
-// its foot at (x0, y0)) a finger at height h over (x, y) is then z0 / (z0 - h) times too far from the foot and too wide.
+// its foot at (x0, y0)) a finger at height h over (x, y) is then z0 / (z0 - h) times too far from the foot and too
+// wide.
 struct FingerObservation {
   ScreenPoint screen;    // may lie below the screen's bottom edge: a hovering finger does
   double width_mm = 0;   // of the finger right behind its tip; 0: not measured
   double px_per_mm = 0;  // of the picture at that place, along the screen's x; 0: unknown
-  MirrorEvidence mirror;
+  MirrorEvidence mirror = {};
   double quality = 1;  // of the detection, > 0 to 1: the tip's noise is inversely proportional to it
 };
 
@@ -43,7 +35,7 @@ using FingerObservations = boost::container::static_vector<FingerObservation, ma
 // A picture that stands alone: without a history only the mirror image can tell, and a finger that crosses the border
 // touches more often than not.
 [[nodiscard]] constexpr bool touches_alone(const FingerObservation& finger) noexcept {
-  return finger.mirror.verdict != MirrorVerdict::hovering;
+  return finger.mirror.state != MirrorState::hovering;
 }
 
 // Something that changes the whole picture (a light switched, a flashing screen, a torn frame) says nothing about

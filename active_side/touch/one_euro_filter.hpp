@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The 1 Euro filter (Casiez, Roussel, Vogel, CHI 2012) for points: a low pass whose cutoff rises with the speed, so
-// that a resting finger does not tremble and a fast one does not lag. Both coordinates share the cutoff, else a slanting
-// stroke would bend. Unlike the paper's, the speed comes from the innovation, not from a filtered derivative, which
-// would itself lag where a stroke begins.
+// that a resting finger does not tremble and a fast one does not lag. Both coordinates share the cutoff, else a
+// slanting stroke would bend. Unlike the paper's, the speed comes from the innovation, not from a filtered derivative,
+// which would itself lag where a stroke begins.
 #pragma once
 
 #include <cmath>
@@ -15,7 +15,7 @@
 namespace telehug {
 
 struct OneEuroOptions {
-  double least_cutoff_hz = 2.5;   // at rest: 30 frames a second and noise of 1 mm leave 0.45 mm
+  double least_cutoff_hz = 2.5;      // at rest: 30 frames a second and noise of 1 mm leave 0.45 mm
   double cutoff_hz_per_mm_s = 0.06;  // a stroke of 100 mm/s trails by 1 to 2 mm, one of 1 m/s by less than 1 mm
   // Noise looks like motion of this speed times the frame rate: innovations up to here do not open the filter.
   double noise_mm = 1.5;

@@ -118,7 +118,7 @@ std::vector<Figure> measure_path(const Recording& recording, bool continuity) {
     const TouchedPoints touched = screen_points(fingers, calibration.model(), calibration.screen, calibration.image);
     const double model_ms = watch.lap_ms();
     const Timestamp time = Timestamp{} + i * 33ms;
-    const ContactStates& contacts = tracker.update(without_evidence(touched.points), time);
+    const ContactStates& contacts = tracker.update(touched.fingers, time);
     const double track_ms = watch.lap_ms();
     const BoxedContacts boxed = boxes_under(contacts, map, Duration::max(), time, nobody);
     builder.build(boxed, map.shape, map.version, time, time);
