@@ -52,13 +52,13 @@ void normalise(States& states) {
 
 }  // namespace
 
-ContactFilter::ContactFilter(const CameraFoot& camera, const ContactFilterOptions& options,
+ContactFilter::ContactFilter(const CameraFoot& camera, const ContactFilterOptions& options, const FingerWidth& known,
                              const FingerObservation& first, std::optional<double> seconds_unseen)
     : camera_(camera), options_(options), belief_{0.6, 0.39, 0.01} {
   remember(first);
   if (seconds_unseen && *seconds_unseen > 0) came_over_border(*seconds_unseen);
   weigh_mirror(first.mirror);
-  weigh_width(first, {std::log(15), options_.finger_widths});
+  weigh_width(first, known);
 }
 
 // It was not there a frame ago, so it came over the bottom edge since: with at least this speed.
@@ -124,9 +124,8 @@ std::array<ContactFilter::States, 3> ContactFilter::transitions(const Step& step
   const double height_width =
       step.width ? width_fits(*step.width - step.log_r, std::hypot(width_sd, 0.25 * step.log_r)) : 1;
 
-  const double slow_across =
-      0.5 * normal(step.across_mm, step.noise_across_mm) +
-      0.5 * normal(step.across_mm, std::hypot(step.noise_across_mm, options_.across_mm_s * t));
+  const double slow_across = 0.5 * normal(step.across_mm, step.noise_across_mm) +
+                             0.5 * normal(step.across_mm, std::hypot(step.noise_across_mm, options_.across_mm_s * t));
   const double same_across =
       normal(step.across_mm - across_mm_s_ * t,
              std::hypot(std::numbers::sqrt3 * step.noise_across_mm, options_.slide_mm_s2 * t * t));
@@ -143,14 +142,14 @@ std::array<ContactFilter::States, 3> ContactFilter::transitions(const Step& step
   const double lift = options_.lift_rate * t;
   const double slow = 0.5 * t;  // pressing on from hovering, giving way to it
 
-  const double keeps_moving = log_r_speed_ ? normal(step.log_r - expected, std::hypot(air, noise))
-                                           : normal(step.log_r, 0.4);
-  const double lands = log_r_speed_ ? even(step.log_r, std::min(0.0, 1.1 * expected), noise + 0.01)
-                                    : normal(step.log_r, 0.05);
-  const double halts =
-      log_r_speed_ ? normal(step.log_r, std::hypot(0.06, noise)) *
-                         std::exp(-0.5 * std::pow((step.log_r - expected) / std::hypot(0.7 * air, noise), 2))
-                   : normal(step.log_r, 0.1);
+  const double keeps_moving =
+      log_r_speed_ ? normal(step.log_r - expected, std::hypot(air, noise)) : normal(step.log_r, 0.4);
+  const double lands =
+      log_r_speed_ ? even(step.log_r, std::min(0.0, 1.1 * expected), noise + 0.01) : normal(step.log_r, 0.05);
+  const double halts = log_r_speed_
+                           ? normal(step.log_r, std::hypot(0.06, noise)) *
+                                 std::exp(-0.5 * std::pow((step.log_r - expected) / std::hypot(0.7 * air, noise), 2))
+                           : normal(step.log_r, 0.1);
   const double lifts = exponential(step.log_r, options_.lift_mm_s * t / z0, noise + 0.01);
   const double drift_mm = options_.drift_mm_s * t * r / near_z0;
   const double creep = 60 * t / near_z0;
@@ -170,7 +169,11 @@ std::array<ContactFilter::States, 3> ContactFilter::transitions(const Step& step
 }
 
 void ContactFilter::update(const FingerObservation& finger, double seconds, const FingerWidth& known) {
-  if (comparable_ && seconds > 0) {
+  if (!comparable_) {
+    remember(finger);
+    return;
+  }
+  if (seconds > 0) {
     const Step step = step_to(finger, seconds);
     const auto p = transitions(step);
     States next{};

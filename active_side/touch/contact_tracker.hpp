@@ -10,9 +10,9 @@
 #include "common/messages.hpp"
 #include "touch/assignment.hpp"
 #include "touch/contact_filter.hpp"
+#include "touch/contact_smoothing.hpp"
 #include "touch/contact_state.hpp"
 #include "touch/finger_observation.hpp"
-#include "touch/one_euro_filter.hpp"
 
 namespace telehug {
 
@@ -24,8 +24,8 @@ struct TrackerOptions {
   // that moves fast (1 m/s) goes 33 mm from one frame to the next. Along the line through the camera's foot, where a
   // change of height moves it, three times as far.
   double gate_mm = 40;
-  // A contact whose finger is not seen is held at its last place, and ends with the first of these two; or before, where
-  // it more likely was lifted out of sight.
+  // A contact whose finger is not seen is held at its last place, and ends with the first of these two; or before,
+  // where it more likely was lifted out of sight.
   int up_after_missed_frames = 3;
   Duration up_after = 100ms;            // since it was last seen
   Duration up_after_disturbed = 300ms;  // likewise, while the scene is disturbed
@@ -35,8 +35,9 @@ struct TrackerOptions {
   // A finger that touched so surely and is not seen may be found again in the next frame: its contact waits for that.
   double wait_above = 0.85;
   CameraFoot camera = {};
+  FingerWidth finger_width = {};  // until somebody has touched; better: as measured in the calibration's touches
   ContactFilterOptions filter = {};
-  OneEuroOptions smoothing = {};
+  ContactSmoothingOptions smoothing = {};
 };
 
 // A finger in front of the screen, at the place where it would be if it touched.
@@ -52,11 +53,11 @@ using HoveringFingers = boost::container::static_vector<HoveringFinger, max_cont
 //
 // What waiting buys: with a mirror image a touch is down in the frame in which it begins or in the next one, without
 // one when the approach has ended, in the next one. It is up in the frame in which the finger leaves, or the next one.
-// A hand that brakes softly and rests a few millimetres off a matt screen can't be told from a touch by its motion, only
-// by its width, and then only from about 10 mm on: see down_above.
+// A hand that brakes softly and rests a few millimetres off a matt screen can't be told from a touch by its motion,
+// only by its width, and then only from about 10 mm on: see down_above.
 class ContactTracker {
  public:
-  explicit ContactTracker(const TrackerOptions& options = {}) : options_(options) {}
+  explicit ContactTracker(const TrackerOptions& options = {}) : options_(options), known_width_(options.finger_width) {}
 
   // The contacts of this frame, in the order of their ids: every one that lives once (down, then move, also while it is
   // held, with the time at which it was last seen), and those that end now (up, with this frame's time). The result
@@ -71,10 +72,10 @@ class ContactTracker {
  private:
   struct Track {
     ContactFilter filter;
-    OneEuroFilter smoothing;
-    ScreenPoint seen;        // as observed
+    ContactSmoothing smoothing;
+    ScreenPoint seen;  // as observed
     Timestamp seen_at;
-    double x_mm_s = 0;       // of `seen`
+    double x_mm_s = 0;  // of `seen`
     double y_mm_s = 0;
     int missed_frames = 0;
     std::optional<ContactState> contact;

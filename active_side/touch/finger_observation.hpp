@@ -21,7 +21,8 @@ struct MirrorEvidence {
 };
 
 // One finger in one frame, read as if it touched the screen. Seen from the camera (height z0 above the screen's plane,
-// its foot at (x0, y0)) a finger at height h over (x, y) is then z0 / (z0 - h) times too far from the foot and too wide.
+// its foot at (x0, y0)) a finger at height h over (x, y) is then z0 / (z0 - h) times too far from the foot and too
+// wide.
 struct FingerObservation {
   ScreenPoint screen;    // may lie below the screen's bottom edge: a hovering finger does
   double width_mm = 0;   // of the finger right behind its tip; 0: not measured
