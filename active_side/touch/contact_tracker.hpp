@@ -51,10 +51,11 @@ using HoveringFingers = boost::container::static_vector<HoveringFinger, max_cont
 // identity that lives from down to up. Up to max_contacts fingers at a time; a frame's fingers beyond that wait until a
 // place is free. Allocates nothing.
 //
-// What waiting buys: with a mirror image a touch is down in the frame in which it begins or in the next one, without
-// one when the approach has ended, in the next one. It is up in the frame in which the finger leaves, or the next one.
-// A hand that brakes softly and rests a few millimetres off a matt screen can't be told from a touch by its motion,
-// only by its width, and then only from about 10 mm on: see down_above.
+// How late: with a mirror image a touch is down in the frame in which it begins or in the next one; without one in the
+// next one, when the approach has ended. It is up in the frame in which the finger leaves, or in the next one. How
+// often wrong: see ARCHITECTURE.md. A hand that brakes softly and waits a few millimetres off a matt screen moves like
+// one that touches softly; then only the width tells, from about 10 mm on. A higher `down_above` takes fewer such hands
+// for a touch, and takes longer for soft touches.
 class ContactTracker {
  public:
   explicit ContactTracker(const TrackerOptions& options = {}) : options_(options), known_width_(options.finger_width) {}
