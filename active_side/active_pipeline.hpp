@@ -21,7 +21,7 @@ namespace telehug {
 
 struct ActivePipelineOptions {
   FrameCheckOptions frames;
-  TrackerOptions tracker{.every_finger_touches = true};  // detectors can't tell
+  TrackerOptions tracker{.every_finger_touches = true};  // see tracker_options()
   GestureOptions gestures;
   Duration max_map_age = 3s;
 };

@@ -139,8 +139,8 @@ void ContactTracker::miss(Track& track, Timestamp frame_time, Scene scene) {
 
 void ContactTracker::begin(const FingerObservation& finger, Timestamp frame_time) {
   const auto unseen = steady_frame_ ? std::optional(seconds_between(*steady_frame_, frame_time)) : std::nullopt;
-  tracks_.push_back({{options_.camera, options_.filter, finger, unseen},
-                     OneEuroFilter(options_.smoothing),
+  tracks_.push_back({{options_.camera, options_.filter, known_width_, finger, unseen},
+                     ContactSmoothing(options_.smoothing),
                      finger.screen,
                      frame_time,
                      0,
