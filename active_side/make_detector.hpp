@@ -19,7 +19,8 @@ namespace telehug {
 Result<BorderStrip> read_background_of(const std::filesystem::path& calibration_file, const Calibration& calibration);
 
 // `choice`: "thesis" or "default", which learns the background by itself if there is none. For the calibration's
-// upright pictures. With the default model it also looks for mirror images. Throws std::invalid_argument if no finger could be seen with this calibration.
+// upright pictures. With the default model it also looks for mirror images. Throws std::invalid_argument if no finger
+// could be seen with this calibration.
 AnyDetector make_detector(const std::string& choice, const Calibration& calibration,
                           const std::optional<BorderStrip>& background);
 

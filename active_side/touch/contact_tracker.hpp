@@ -27,8 +27,9 @@ struct TrackerOptions {
   // A contact whose finger is not seen is held at its last place, and ends with the first of these two; or before,
   // where it more likely was lifted out of sight.
   int up_after_missed_frames = 3;
-  Duration up_after = 100ms;            // since it was last seen
-  Duration up_after_disturbed = 300ms;  // likewise, while the scene is disturbed
+  Duration up_after = 100ms;             // since it was last seen
+  Duration up_after_disturbed = 300ms;   // likewise, while the scene is disturbed
+  Duration up_after_no_picture = 150ms;  // likewise, while no picture comes; slow cameras deliver 10 a second
   // Probabilities of touching.
   double down_above = 0.65;
   double up_below = 0.4;
@@ -62,10 +63,13 @@ class ContactTracker {
 
   // The contacts of this frame, in the order of their ids: every one that lives once (down, then move, also while it is
   // held, with the time at which it was last seen), and those that end now (up, with this frame's time). The result
-  // lives until the next call. `frame_time` must rise; with no frames at all (camera lost), call it with no fingers and
-  // the present time, so that contacts end. In a disturbed scene contacts move, but none begins, and none ends unless
-  // its finger is gone for long.
+  // lives until the next call. `frame_time` must rise. In a disturbed scene contacts move, but none begins, and none
+  // ends unless its finger is gone for long.
   const ContactStates& update(const FingerObservations& fingers, Timestamp frame_time, Scene scene = Scene::steady);
+
+  // While no frame comes (a slow camera, one that is lost or not wanted): that says nothing about fingers, but after a
+  // while contacts end. `now` as `frame_time`.
+  const ContactStates& pass(Timestamp now);
 
   // Of the last frame: fingers that are seen but don't touch.
   [[nodiscard]] const HoveringFingers& hovering() const noexcept { return hovering_; }
@@ -85,6 +89,7 @@ class ContactTracker {
   using Taken = std::array<bool, max_contacts>;
 
   void forget_ended();
+  void collect();
   [[nodiscard]] double cost(const Track& track, const ScreenPoint& point, double seconds) const;
   void follow(Track& track, const FingerObservation& finger, Timestamp frame_time, Scene scene);
   void miss(Track& track, Timestamp frame_time, Scene scene);

@@ -25,13 +25,13 @@ ContactTracker tracker() {
 }
 
 // A finger at (x, y) and height z, as the camera reads it.
-FingerObservation seen_at(double x_mm, double y_mm, double z_mm = 0, MirrorVerdict mirror = MirrorVerdict::unknown) {
+FingerObservation seen_at(double x_mm, double y_mm, double z_mm = 0, MirrorState mirror = MirrorState::unknown) {
   const double nearer = camera.height_mm / (camera.height_mm - z_mm);
   return {
       {camera.foot.x_mm + nearer * (x_mm - camera.foot.x_mm), camera.foot.y_mm + nearer * (y_mm - camera.foot.y_mm)},
       15 * nearer,
       1000 / (y_mm - camera.foot.y_mm),
-      {mirror, 1, z_mm},
+      {mirror, 0, z_mm, 1},
       1};
 }
 
@@ -135,7 +135,7 @@ TEST(FingerTracks, BeginAndEndNothingInADisturbedScene) {
     if (i < 6 || i >= 10) {
       frame.first.push_back(seen_at(150, 150, i < 0 ? height_before(-i) : 0));
     } else {
-      frame.first.push_back(seen_at(300, 100, 0, MirrorVerdict::touching));  // what the flash looks like
+      frame.first.push_back(seen_at(300, 100, 0, MirrorState::touching));  // what the flash looks like
     }
     return frame;
   });
@@ -164,7 +164,7 @@ TEST(FingerTracks, TakeNoFlashForATouch) {
     Fingers frame;
     if (between(random) < 0.3) {
       frame.first.push_back(seen_at(400 * between(random), 60 + 240 * between(random), 0,
-                                    static_cast<MirrorVerdict>(static_cast<int>(3 * between(random)))));
+                                    static_cast<MirrorState>(static_cast<int>(3 * between(random)))));
       frame.second = between(random) < 0.8 ? Scene::disturbed : Scene::steady;
     }
     return frame;
@@ -175,7 +175,7 @@ TEST(FingerTracks, TakeNoFlashForATouch) {
 TEST(FingerTracks, ReportFingersThatHover) {
   ContactTracker fingers = tracker();
   const auto played = play(fingers, 0, 5, [](int) {
-    return Fingers{{seen_at(150, 150, 15, MirrorVerdict::hovering)}, Scene::steady};
+    return Fingers{{seen_at(150, 150, 15, MirrorState::hovering)}, Scene::steady};
   });
   EXPECT_EQ(played.downs, 0);
   ASSERT_EQ(fingers.hovering().size(), 1U);
@@ -193,7 +193,7 @@ TEST(FingerTracks, KeepTheirPromisesWhateverIsSeen) {
     FingerObservations seen;
     for (int n = static_cast<int>(11 * between(random)); n > 0; --n) {
       FingerObservation finger = seen_at(400 * between(random), 300 * between(random), 0,
-                                         static_cast<MirrorVerdict>(static_cast<int>(3 * between(random))));
+                                         static_cast<MirrorState>(static_cast<int>(3 * between(random))));
       if (between(random) < 0.1) finger.width_mm = 0;
       if (between(random) < 0.1) finger.screen = {-1e6 * between(random), 1e6 * between(random)};
       if (between(random) < 0.1) finger.quality = 0;
