@@ -13,8 +13,9 @@ constexpr float noise_level = 3;
 constexpr float uneven_light = 0.06F;
 constexpr float like_background = 2;  // distance below which a cell helps to find the gain
 constexpr float dark = 3;             // keeps ratios of black cells finite
-constexpr int levelling_rounds = 3;
-constexpr int median_step = 4;  // every how many cells the first gain looks at
+constexpr int levelling_rounds = 2;
+constexpr int median_step = 8;     // every how many cells the first gain looks at,
+constexpr int levelling_step = 1;  // and the better ones
 
 // Shares of the way to the present frame, at 30 frames a second: half a second, 20 seconds, 2 minutes.
 constexpr float learn_background = 1.0F / 15;
@@ -44,62 +45,74 @@ void BackgroundStrip::set_background(int rail) {
   }
 }
 
-void BackgroundStrip::level(const BorderStrip& strip, int rail) {
-  auto& gain = gain_[static_cast<std::size_t>(rail)];
+// Of one cell, in variances of the noise, summed over the channels.
+inline float BackgroundStrip::distance2(const RailView& rail, const Gain& gain, int i) {
+  float sum = 0;
+  for (std::size_t k = 0; k < gain.size(); ++k) {
+    const float difference = gain[k] * (rail.now[k][i] + dark) - (rail.then[k][i] + dark);
+    sum += difference * difference * rail.inverse_variance[k][i];
+  }
+  return sum;
+}
+
+BackgroundStrip::RailView BackgroundStrip::view(const BorderStrip& strip, int rail) const {
+  RailView view{};
+  for (int channel = 0; channel < BorderStrip::channels; ++channel) {
+    const auto k = static_cast<std::size_t>(channel);
+    view.now[k] = strip.row(channel, rail);
+    view.then[k] = background_.row(channel, rail);
+    view.inverse_variance[k] =
+        inverse_variance_.data() + static_cast<std::ptrdiff_t>(channel * BorderStrip::rails + rail) * columns_;
+  }
+  return view;
+}
+
+// The same for all channels: the median over the rail of how much brighter the background was.
+float BackgroundStrip::first_gain(const RailView& rail) {
   std::size_t n = 0;
   for (int i = 0; i < columns_; i += median_step) {
-    float now = dark;
-    float then = dark;
-    for (int channel = 0; channel < BorderStrip::channels; ++channel) {
-      now += strip.row(channel, rail)[i];
-      then += background_.row(channel, rail)[i];
-    }
-    scratch_[n++] = then / now;
+    const float now = rail.now[0][i] + rail.now[1][i] + rail.now[2][i];
+    const float then = rail.then[0][i] + rail.then[1][i] + rail.then[2][i];
+    scratch_[n++] = (then + dark) / (now + dark);
   }
   const auto middle = scratch_.begin() + static_cast<std::ptrdiff_t>(n / 2);
   std::nth_element(scratch_.begin(), middle, scratch_.begin() + static_cast<std::ptrdiff_t>(n));
-  gain.fill(*middle);
+  return *middle;
+}
 
-  float* const distance = distance_.data() + static_cast<std::ptrdiff_t>(rail) * columns_;
-  for (int round = 0; round < levelling_rounds; ++round) {
-    std::fill_n(distance, columns_, 0.0F);
-    for (int channel = 0; channel < BorderStrip::channels; ++channel) {
-      const float g = gain[static_cast<std::size_t>(channel)];
-      const float* const now = strip.row(channel, rail);
-      const float* const then = background_.row(channel, rail);
-      const float* const inverse =
-          inverse_variance_.data() + static_cast<std::ptrdiff_t>(channel * BorderStrip::rails + rail) * columns_;
-      for (int i = 0; i < columns_; ++i) {
-        const float difference = g * (now[i] + dark) - (then[i] + dark);
-        distance[i] += difference * difference * inverse[i];
-      }
+// From the cells that look like background with the gain so far.
+BackgroundStrip::Gain BackgroundStrip::better_gain(const RailView& rail, const Gain& gain) const {
+  constexpr float limit = like_background * like_background * BorderStrip::channels;
+  Gain now{};
+  Gain then{};
+  float alike_cells = 0;
+  for (int i = 0; i < columns_; i += levelling_step) {
+    const float alike = distance2(rail, gain, i) < limit ? 1.0F : 0.0F;
+    for (std::size_t k = 0; k < gain.size(); ++k) {
+      now[k] += alike * (rail.now[k][i] + dark);
+      then[k] += alike * (rail.then[k][i] + dark);
     }
-    constexpr float limit = like_background * like_background * BorderStrip::channels;
-    if (round + 1 == levelling_rounds) break;
-    for (int channel = 0; channel < BorderStrip::channels; ++channel) {
-      const float* const now = strip.row(channel, rail);
-      const float* const then = background_.row(channel, rail);
-      float sum_now = 0;
-      float sum_then = 0;
-      float cells = 0;
-      for (int i = 0; i < columns_; ++i) {
-        const float alike = distance[i] < limit ? 1.0F : 0.0F;
-        sum_now += alike * (now[i] + dark);
-        sum_then += alike * (then[i] + dark);
-        cells += alike;
-      }
-      if (cells > 0.1F * static_cast<float>(columns_)) gain[static_cast<std::size_t>(channel)] = sum_then / sum_now;
-    }
+    alike_cells += alike;
   }
+  if (alike_cells * levelling_step <= 0.1F * static_cast<float>(columns_)) return gain;
+  return {then[0] / now[0], then[1] / now[1], then[2] / now[2]};
 }
 
 const std::vector<float>& BackgroundStrip::distance(const BorderStrip& strip) {
-  for (int rail = 0; rail < BorderStrip::rails; ++rail)
-    level(strip, rail);
-  std::size_t alike = 0;
-  for (float& d : distance_) {
-    d = std::min(std::sqrt(d / BorderStrip::channels), far);
-    alike += d < like_background ? 1 : 0;
+  float alike = 0;
+  for (int r = 0; r < BorderStrip::rails; ++r) {
+    const RailView rail = view(strip, r);
+    Gain gain;
+    gain.fill(first_gain(rail));
+    for (int round = 0; round < levelling_rounds; ++round)
+      gain = better_gain(rail, gain);
+    gain_[static_cast<std::size_t>(r)] = gain;
+    float* const distance = distance_.data() + static_cast<std::ptrdiff_t>(r) * columns_;
+    for (int i = 0; i < columns_; ++i) {
+      const float d = std::min(std::sqrt(distance2(rail, gain, i) / BorderStrip::channels), far);
+      distance[i] = d;
+      alike += d < like_background ? 1.0F : 0.0F;
+    }
   }
   unchanged_share_ = static_cast<double>(alike) / static_cast<double>(distance_.size());
   return distance_;

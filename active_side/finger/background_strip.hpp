@@ -37,14 +37,26 @@ class BackgroundStrip {
   [[nodiscard]] cv::Mat picture() const;
 
  private:
+  using Gain = std::array<float, BorderStrip::channels>;
+  using Channels = std::array<const float*, BorderStrip::channels>;
+  // One rail of the frame and of the background.
+  struct RailView {
+    Channels now;
+    Channels then;
+    Channels inverse_variance;
+  };
+
   void set_background(int rail);
-  void level(const BorderStrip& strip, int rail);
+  [[nodiscard]] RailView view(const BorderStrip& strip, int rail) const;
+  [[nodiscard]] static float distance2(const RailView& rail, const Gain& gain, int column);
+  [[nodiscard]] float first_gain(const RailView& rail);
+  [[nodiscard]] Gain better_gain(const RailView& rail, const Gain& gain) const;
 
   int columns_;
   BorderStrip background_;
   std::vector<float> inverse_variance_;  // of each value
   std::vector<float> distance_;
-  std::array<std::array<float, BorderStrip::channels>, BorderStrip::rails> gain_{};  // background = gain * frame
+  std::array<Gain, BorderStrip::rails> gain_{};  // background = gain * frame
   std::vector<float> scratch_;
   double unchanged_share_ = 1;
 };

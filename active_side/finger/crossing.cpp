@@ -10,9 +10,11 @@ namespace telehug {
 namespace {
 
 constexpr double steepest = 0.9;
-constexpr float least_edge = 1;     // mean step of an edge, in standard deviations
-constexpr float most_against = -1;  // how much a rail with the opposite step counts against an edge
-constexpr float far_enough = 5;     // steps beyond this are all alike: skin colours make no difference
+constexpr double slope_step = 2 * steepest / (CrossingFinder::slopes - 1);
+constexpr float step_unit = 1.0F / 32;  // of a step of the foreground, in standard deviations
+constexpr float least_edge = 1;         // mean step of an edge, in standard deviations
+constexpr float most_against = -1;      // how much a rail with the opposite step counts against an edge
+constexpr float far_enough = 5;         // steps beyond this are all alike: skin colours make no difference
 constexpr float is_foreground = 2;
 constexpr int rails_between = 10;  // from the border on, looked at for foreground between two edges
 constexpr double least_foreground = 0.75;
@@ -21,8 +23,8 @@ constexpr double narrowest_px = 25;     // in a picture 1280 columns wide: 7 mm 
 constexpr double widest_px = 190;       // 20 mm close to the camera
 constexpr int apart_columns = 3;        // two peaks of one edge
 
-double slope_of(int index, int slopes) {
-  return -steepest + 2 * steepest * index / (slopes - 1);
+double slope_of(std::size_t index) {
+  return -steepest + slope_step * static_cast<double>(index);
 }
 
 // Weighted least squares with weights that fall off for points beside the line (Geman and McClure 1985).
@@ -68,59 +70,97 @@ FingerEdge robust_line(const std::array<double, 64>& v, const std::array<double,
 
 CrossingFinder::CrossingFinder(const BorderStrip::Layout& layout)
     : layout_(layout),
-      rises_(layout.cells()),
-      falls_(layout.cells()),
+      margin_(shift(-steepest, BorderStrip::rails - 1) + 1),
+      row_(static_cast<std::size_t>(layout.columns + 2 * margin_)),
+      rises_(row_ * BorderStrip::rails),
+      falls_(rises_.size()),
       sums_(static_cast<std::size_t>(layout.columns)),
-      best_(static_cast<std::size_t>(layout.columns)),
-      best_slope_(static_cast<std::size_t>(layout.columns)) {}
+      best_(sums_.size()),
+      best_slope_(sums_.size()) {
+  candidates_.reserve(sums_.size());
+}
+
+int CrossingFinder::shift(double slope, int rail) const noexcept {
+  return static_cast<int>(std::lround(slope * layout_.offset_px(rail) / layout_.column_px));
+}
 
 // The picture's sides end a finger as well as its own edges do.
 void CrossingFinder::find_steps(const std::vector<float>& foreground) {
   const int n = layout_.columns;
   for (int rail = 0; rail < BorderStrip::rails; ++rail) {
     const float* const in = foreground.data() + static_cast<std::ptrdiff_t>(rail) * n;
-    float* const rise = rises_.data() + static_cast<std::ptrdiff_t>(rail) * n;
-    float* const fall = falls_.data() + static_cast<std::ptrdiff_t>(rail) * n;
-    for (int i = 0; i < n; ++i) {
-      const float before = i > 0 ? std::min(in[i - 1], far_enough) : 0;
-      const float after = i + 1 < n ? std::min(in[i + 1], far_enough) : 0;
-      rise[i] = std::max(after - before, most_against);
-      fall[i] = std::max(before - after, most_against);
-    }
+    Step* const rise = rises_.data() + first_of(rail);
+    Step* const fall = falls_.data() + first_of(rail);
+    const auto set = [&](int i, float before, float after) {
+      const float step = std::min(after, far_enough) - std::min(before, far_enough);
+      rise[i] = static_cast<Step>(std::max(step, most_against) / step_unit);
+      fall[i] = static_cast<Step>(std::max(-step, most_against) / step_unit);
+    };
+    set(0, 0, in[1]);
+    for (int i = 1; i + 1 < n; ++i)
+      set(i, in[i - 1], in[i + 1]);
+    set(n - 1, in[n - 2], 0);
   }
 }
 
-void CrossingFinder::find_edges(const std::vector<float>& steps, Peaks& peaks) {
+void CrossingFinder::find_edges(const Steps& steps, Peaks& peaks) {
   const int n = layout_.columns;
-  std::fill(best_.begin(), best_.end(), 0.0F);
-  for (int s = 0; s < slopes; ++s) {
-    std::fill(sums_.begin(), sums_.end(), 0.0F);
-    for (int rail = 0; rail < BorderStrip::rails; ++rail) {
-      const double shift_px = slope_of(s, slopes) * layout_.offset_px(rail);
-      const int shift = static_cast<int>(std::lround(shift_px / layout_.column_px));
-      const float* const in = steps.data() + static_cast<std::ptrdiff_t>(rail) * n + shift;
-      float* const sum = sums_.data();
-      const int end = std::min(n, n - shift);
-      for (int i = std::max(0, -shift); i < end; ++i)
-        sum[i] += in[i];
+  std::fill(best_.begin(), best_.end(), Step{0});
+  for (std::size_t slope = 0; slope < slopes; ++slope) {
+    std::fill(sums_.begin(), sums_.end(), Step{0});
+    constexpr int at_once = 4;  // rails
+    static_assert(BorderStrip::rails % at_once == 0);
+    for (int rail = 0; rail < BorderStrip::rails; rail += at_once) {
+      const auto row = [&](int r) { return steps.data() + first_of(r) + shift(slope_of(slope), r); };
+      const Step* const a = row(rail);
+      const Step* const b = row(rail + 1);
+      const Step* const c = row(rail + 2);
+      const Step* const d = row(rail + 3);
+      Step* const sum = sums_.data();
+      for (int i = 0; i < n; ++i)
+        sum[i] = static_cast<Step>(sum[i] + a[i] + b[i] + c[i] + d[i]);
     }
     for (std::size_t i = 0; i < sums_.size(); ++i) {
       const bool better = sums_[i] > best_[i];
       best_[i] = better ? sums_[i] : best_[i];
-      best_slope_[i] = better ? s : best_slope_[i];
+      best_slope_[i] = better ? static_cast<Step>(slope) : best_slope_[i];
     }
   }
-  peaks.clear();
-  while (peaks.size() < peaks.capacity()) {
-    const auto highest = std::max_element(best_.begin(), best_.end());
-    const float strength = *highest / BorderStrip::rails;
-    if (strength < least_edge) return;
-    const auto column = static_cast<int>(highest - best_.begin());
-    peaks.push_back({column, slope_of(best_slope_[static_cast<std::size_t>(column)], slopes), strength});
-    const int last = std::min(n - 1, column + apart_columns);
-    for (int i = std::max(0, column - apart_columns); i <= last; ++i)
-      best_[static_cast<std::size_t>(i)] = 0;
+  candidates_.clear();
+  for (int i = 0; i < n; ++i) {
+    const float strength = mean_step(best_[static_cast<std::size_t>(i)]);
+    if (strength >= least_edge)
+      candidates_.push_back(
+          {i, slope_of(static_cast<std::size_t>(best_slope_[static_cast<std::size_t>(i)])), strength});
   }
+  peaks.clear();
+  while (!candidates_.empty() && peaks.size() < peaks.capacity()) {
+    const Peak highest = *std::max_element(candidates_.begin(), candidates_.end(),
+                                           [](const Peak& x, const Peak& y) { return x.strength < y.strength; });
+    std::erase_if(candidates_,
+                  [&](const Peak& peak) { return std::abs(peak.column - highest.column) <= apart_columns; });
+    peaks.push_back(between_slopes(steps, highest));
+  }
+}
+
+float CrossingFinder::mean_step(int sum) noexcept {
+  return static_cast<float>(sum) * (step_unit / BorderStrip::rails);
+}
+
+// The best of the slopes beside a peak's, at its place or next to it.
+CrossingFinder::Peak CrossingFinder::between_slopes(const Steps& steps, const Peak& peak) const {
+  Peak best = peak;
+  for (const double slope : {peak.slope - 0.5 * slope_step, peak.slope + 0.5 * slope_step}) {
+    if (std::abs(slope) > steepest) continue;
+    for (int column = std::max(0, peak.column - 2); column <= std::min(layout_.columns - 1, peak.column + 2);
+         ++column) {
+      int sum = 0;
+      for (int rail = 0; rail < BorderStrip::rails; ++rail)
+        sum += steps[static_cast<std::size_t>(first_of(rail) + column + shift(slope, rail))];
+      if (mean_step(sum) > best.strength) best = {column, slope, mean_step(sum)};
+    }
+  }
+  return best;
 }
 
 double CrossingFinder::foreground_between(const std::vector<float>& foreground, const Peak& left,
@@ -156,19 +196,21 @@ FingerEdge CrossingFinder::refined(const Peak& peak, const cv::Mat& bgr, const B
     const auto row = static_cast<int>(std::lround(coarse.v_px + offset));
     const auto middle = static_cast<int>(std::lround(coarse.u_at(row)));
     if (row < 1 || row > bgr.rows - 2 || middle < reach + mean || middle >= bgr.cols - reach - mean) continue;
-    std::array<double, 2 * reach + 1> step;
+    // Interleaved channels of all columns that count, three rows together; then the steps at 2 reach + 1 of them.
+    constexpr int places = 2 * reach + 1;
+    std::array<int, std::size_t{3} * (places + 2 * mean)> sum;
+    const std::uint8_t* const pixels = bgr.ptr<std::uint8_t>(row) + 3 * (middle - reach - mean);
+    const std::uint8_t* const above = pixels - bgr.step[0];
+    const std::uint8_t* const below = pixels + bgr.step[0];
+    for (std::size_t i = 0; i < sum.size(); ++i)
+      sum[i] = above[i] + pixels[i] + below[i];
+    std::array<int, std::size_t{3} * places> difference;
+    for (std::size_t i = 0; i < difference.size(); ++i)
+      difference[i] = std::abs(sum[i + 12] + sum[i + 15] + sum[i + 18] - sum[i] - sum[i + 3] - sum[i + 6]);
+    std::array<double, places> step;
     std::size_t best = 0;
     for (std::size_t i = 0; i < step.size(); ++i) {
-      const int column = middle - reach + static_cast<int>(i);
-      int difference[3] = {0, 0, 0};
-      for (int dv = -1; dv <= 1; ++dv) {
-        const auto* const pixel = bgr.ptr<cv::Vec3b>(row + dv) + column;
-        for (int k = 1; k <= mean; ++k) {
-          for (int c = 0; c < 3; ++c)
-            difference[c] += pixel[k][c] - pixel[-k][c];
-        }
-      }
-      step[i] = std::abs(difference[0]) + std::abs(difference[1]) + std::abs(difference[2]);
+      step[i] = difference[3 * i] + difference[3 * i + 1] + difference[3 * i + 2];
       if (step[i] > step[best]) best = i;
     }
     double part = 0;
@@ -205,8 +247,10 @@ const Crossings& CrossingFinder::find(const std::vector<float>& foreground, cons
       const double width_px = (right.column - left.column) * layout_.column_px;
       const double taper = std::abs(left.slope - right.slope);
       if (width_px < narrowest_px * scale || width_px > widest_px * scale || taper > largest_taper) continue;
+      const double edges = static_cast<double>(left.strength + right.strength) - taper;
+      if (edges + 2 < least_strength) continue;
       const double between = foreground_between(foreground, left, right);
-      const double strength = static_cast<double>(left.strength + right.strength) + 2 * between - taper;
+      const double strength = edges + 2 * between;
       if (between >= least_foreground && strength >= least_strength) pairs.push_back({strength, left, right});
     }
   }

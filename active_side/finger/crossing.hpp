@@ -7,6 +7,7 @@
 
 #include <boost/container/static_vector.hpp>
 #include <cstddef>
+#include <cstdint>
 #include <opencv2/core/mat.hpp>
 #include <vector>
 
@@ -40,6 +41,7 @@ class CrossingFinder {
   // Sum of the two edges' mean steps in standard deviations (each up to 5) and twice the share of foreground between
   // them. Shadows and specks that were seen stay below 3.5, fingers of skin that is like what lies behind above 5.
   static constexpr double least_strength = 4.5;
+  static constexpr std::size_t slopes = 19;  // looked at, from -0.9 to 0.9; then those halfway between
 
   explicit CrossingFinder(const BorderStrip::Layout& layout);
 
@@ -48,27 +50,40 @@ class CrossingFinder {
   const Crossings& find(const std::vector<float>& foreground, const cv::Mat& bgr, const BorderCurve& border);
 
  private:
-  static constexpr int slopes = 37;  // from -0.9 to 0.9
   static constexpr std::size_t most_edges = 24;
   struct Peak {
     int column = 0;
     double slope = 0;
-    float strength = 0;
+    float strength = 0;  // mean step over the rails, in standard deviations
   };
   using Peaks = boost::container::static_vector<Peak, most_edges>;
+  // Fixed point, so that sums over all rails fit as well. Rails by columns, with a margin of zeros at both sides.
+  using Step = std::int16_t;
+  using Steps = std::vector<Step>;
 
   void find_steps(const std::vector<float>& foreground);
-  void find_edges(const std::vector<float>& steps, Peaks& peaks);
+  void find_edges(const Steps& steps, Peaks& peaks);
+  [[nodiscard]] static float mean_step(int sum) noexcept;
+  [[nodiscard]] Peak between_slopes(const Steps& steps, const Peak& peak) const;
   [[nodiscard]] double foreground_between(const std::vector<float>& foreground, const Peak& left,
                                           const Peak& right) const;
   [[nodiscard]] FingerEdge refined(const Peak& peak, const cv::Mat& bgr, const BorderCurve& border) const;
+  // Of an edge from the border to a rail, in columns.
+  [[nodiscard]] int shift(double slope, int rail) const noexcept;
+  // Where a rail's first column stands in Steps.
+  [[nodiscard]] std::ptrdiff_t first_of(int rail) const noexcept {
+    return rail * static_cast<std::ptrdiff_t>(row_) + margin_;
+  }
 
   BorderStrip::Layout layout_;
-  std::vector<float> rises_;  // of the foreground at each cell, in standard deviations; rails by columns
-  std::vector<float> falls_;
-  std::vector<float> sums_;  // of one slope
-  std::vector<float> best_;
-  std::vector<int> best_slope_;
+  int margin_;       // of Steps, in columns
+  std::size_t row_;  // of Steps: columns and both margins
+  Steps rises_;      // of the foreground at each cell
+  Steps falls_;
+  std::vector<Step> sums_;  // of one slope
+  std::vector<Step> best_;
+  std::vector<Step> best_slope_;
+  std::vector<Peak> candidates_;
   Crossings crossings_;
 };
 
