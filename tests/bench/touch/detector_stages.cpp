@@ -38,7 +38,8 @@ class StagedDetector {
         background_(layout_, strip_),
         crossing_finder_(layout_),
         edges_(image_),
-        colours_(image_) {}
+        colours_(image_),
+        tip_search_(image_) {}
 
   StageTimes detect(const cv::Mat& bgr) {
     StageTimes ms{};
