@@ -46,7 +46,7 @@ Figure measure_frame_check(const Recording& recording) {
   for (int i = 0; i < bench_warm_up_rounds + bench_rounds; ++i) {
     const cv::Mat& picture = recording.rig.pictures[static_cast<std::size_t>(i) % recording.rig.pictures.size()];
     Stopwatch watch;
-    believed += check.check(picture).verdict == FrameVerdict::good ? 1 : 0;
+    believed += check.check(picture).verdict == FrameVerdict::good ? 1U : 0U;
     const double ms = watch.lap_ms();
     if (i >= bench_warm_up_rounds) figure.samples.push_back(ms);
   }
