@@ -53,6 +53,8 @@ class BorderStrip {
   [[nodiscard]] float* row(int channel, int rail) noexcept { return values_.data() + start(channel, rail); }
 
  private:
+  template <int Width>
+  void sample_cells(const cv::Mat& bgr, const Layout& layout);
   [[nodiscard]] std::size_t start(int channel, int rail) const noexcept {
     return static_cast<std::size_t>(channel * rails + rail) * static_cast<std::size_t>(columns_);
   }

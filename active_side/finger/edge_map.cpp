@@ -2,17 +2,33 @@
 #include "finger/edge_map.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
-#include <cstdint>
 
 namespace telehug {
+namespace {
+
+constexpr int channels = 3;
+
+struct Gradient {
+  std::int16_t du;
+  std::int16_t dv;
+};
+
+Gradient gradient(const std::int16_t* here, std::ptrdiff_t width) {
+  const std::int16_t* const above = here - width;
+  const std::int16_t* const below = here + width;
+  return {static_cast<std::int16_t>(above[1] + 2 * here[1] + below[1] - above[-1] - 2 * here[-1] - below[-1]),
+          static_cast<std::int16_t>(below[-1] + 2 * below[0] + below[1] - above[-1] - 2 * above[0] - above[1])};
+}
+
+}  // namespace
 
 EdgeMap::EdgeMap(ImageSize largest) {
   const std::size_t cells =
       static_cast<std::size_t>(largest.width_px / 2 + 1) * static_cast<std::size_t>(largest.height_px / 2 + 1);
-  halved_.resize(3 * cells);
-  tensors_.resize(cells);
+  two_rows_.resize(static_cast<std::size_t>(channels) * static_cast<std::size_t>(largest.width_px));
+  halved_.resize(channels * cells);
+  tensors_.resize(channels * cells);
 }
 
 void EdgeMap::compute(const cv::Mat& bgr, cv::Rect part) {
@@ -23,51 +39,54 @@ void EdgeMap::compute(const cv::Mat& bgr, cv::Rect part) {
     columns_ = rows_ = 0;
     return;
   }
-  const std::ptrdiff_t width = columns_;
-  const std::ptrdiff_t plane = width * rows_;
+  halve(bgr);
+  differentiate();
+}
+
+void EdgeMap::halve(const cv::Mat& bgr) {
+  const std::ptrdiff_t plane = static_cast<std::ptrdiff_t>(columns_) * rows_;
+  Level* const both = two_rows_.data();
   for (int j = 0; j < rows_; ++j) {
-    const std::uint8_t* above = bgr.ptr<std::uint8_t>(part_.y + 2 * j) + 3 * part_.x;
-    const std::uint8_t* below = above + bgr.step[0];
-    float* const blue = halved_.data() + j * width;
-    float* const green = blue + plane;
-    float* const red = green + plane;
-    for (int i = 0; i < columns_; ++i, above += 6, below += 6) {
-      blue[i] = 0.25F * static_cast<float>(above[0] + above[3] + below[0] + below[3]);
-      green[i] = 0.25F * static_cast<float>(above[1] + above[4] + below[1] + below[4]);
-      red[i] = 0.25F * static_cast<float>(above[2] + above[5] + below[2] + below[5]);
-    }
-  }
-  std::fill_n(tensors_.begin(), plane, Tensor{});
-  for (int j = 1; j + 1 < rows_; ++j) {
-    Tensor* const out = tensors_.data() + j * width;
-    for (int c = 0; c < 3; ++c) {
-      const float* const above = halved_.data() + c * plane + (j - 1) * width;
-      const float* const here = above + width;
-      const float* const below = here + width;
-      for (int i = 1; i + 1 < columns_; ++i) {
-        const float du =
-            0.25F * (above[i + 1] + 2 * here[i + 1] + below[i + 1] - above[i - 1] - 2 * here[i - 1] - below[i - 1]);
-        const float dv =
-            0.25F * (below[i - 1] + 2 * below[i] + below[i + 1] - above[i - 1] - 2 * above[i] - above[i + 1]);
-        out[i].uu += du * du;
-        out[i].uv += du * dv;
-        out[i].vv += dv * dv;
-      }
+    const std::uint8_t* const above = bgr.ptr<std::uint8_t>(part_.y + 2 * j) + channels * part_.x;
+    const std::uint8_t* const below = above + bgr.step[0];
+    for (int i = 0; i < 2 * channels * columns_; ++i)
+      both[i] = static_cast<Level>(above[i] + below[i]);
+    Level* const blue = halved_.data() + static_cast<std::ptrdiff_t>(j) * columns_;
+    Level* const green = blue + plane;
+    Level* const red = green + plane;
+    for (int i = 0; i < columns_; ++i) {
+      const Level* const pixels = both + 2 * channels * i;
+      blue[i] = static_cast<Level>(pixels[0] + pixels[3]);
+      green[i] = static_cast<Level>(pixels[1] + pixels[4]);
+      red[i] = static_cast<Level>(pixels[2] + pixels[5]);
     }
   }
 }
 
-float EdgeMap::strength(float u, float v, float nu, float nv) const noexcept {
-  const float fu = u - static_cast<float>(part_.x);
-  const float fv = v - static_cast<float>(part_.y);
-  if (fu < 0 || fv < 0) return 0;
-  const auto i = static_cast<int>(0.5F * fu);
-  const auto j = static_cast<int>(0.5F * fv);
-  if (i >= columns_ || j >= rows_) return 0;
-  const Tensor& t =
-      tensors_[static_cast<std::size_t>(j) * static_cast<std::size_t>(columns_) + static_cast<std::size_t>(i)];
-  const float step = std::sqrt(std::max(0.0F, t.uu * nu * nu + 2 * t.uv * nu * nv + t.vv * nv * nv));
-  return step / (step + half_step);
+// By Sobel's operator; the outermost cells have no gradient.
+void EdgeMap::differentiate() {
+  const std::ptrdiff_t width = columns_;
+  const std::ptrdiff_t plane = width * rows_;
+  std::fill_n(tensors_.begin(), channels * width, 0.0F);
+  std::fill_n(tensors_.begin() + channels * (plane - width), channels * width, 0.0F);
+  for (int j = 1; j + 1 < rows_; ++j) {
+    const Level* const blue = halved_.data() + j * width;
+    const Level* const green = blue + plane;
+    const Level* const red = green + plane;
+    float* const uu = tensors_.data() + channels * j * width;
+    float* const uv = uu + width;
+    float* const vv = uv + width;
+    for (std::ptrdiff_t i = 1; i + 1 < width; ++i) {
+      const Gradient b = gradient(blue + i, width);
+      const Gradient g = gradient(green + i, width);
+      const Gradient r = gradient(red + i, width);
+      uu[i] = static_cast<float>(b.du * b.du + g.du * g.du + r.du * r.du);
+      uv[i] = static_cast<float>(b.du * b.dv + g.du * g.dv + r.du * r.dv);
+      vv[i] = static_cast<float>(b.dv * b.dv + g.dv * g.dv + r.dv * r.dv);
+    }
+    for (float* const row : {uu, uv, vv})
+      row[0] = row[width - 1] = 0;
+  }
 }
 
 }  // namespace telehug

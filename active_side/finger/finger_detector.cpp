@@ -78,6 +78,7 @@ FingerDetector::FingerDetector(const BorderCurve& border, ImageSize image, const
       crossing_finder_(layout_),
       edges_(image_),
       colours_(image_),
+      tip_search_(image_),
       is_finger_(static_cast<std::size_t>(layout_.columns), false) {
   axes_.reserve(max_contacts);
   others_.reserve(max_contacts);

@@ -11,54 +11,39 @@ namespace {
 
 // Half ellipses: seen from above a fingertip is 0.7 to 1.35 half widths long, a long nail makes it longer.
 constexpr std::array<double, 5> lengths{0.7, 1.0, 1.35, 1.8, 2.3};
-constexpr int long_from = 3;        // lengths from here on are rare,
-constexpr double rare_cost = 0.06;  // and need that much more evidence
+constexpr double longest_usual = 1.35;
+constexpr double rare_cost = 0.06;  // longer ones need that much more evidence
 constexpr int outline_points = 25;
 constexpr std::array<double, 3> leans{-0.4, 0, 0.4};  // of the tip against the finger
 constexpr std::array<double, 2> widths{1.0, 0.88};    // of the tip against the finger
-constexpr double sides_weight = 0.4;                  // the straight finger behind the tip must have sides,
-constexpr double beyond_weight = 0.35;                // and none beyond it
-constexpr double in_front_px = 24;  // of the border: a touch at the screen's edge, seen by its whole tip
+constexpr std::array<double, 1> coarse_leans{0};
+constexpr std::array<double, 1> coarse_widths{1.0};
+constexpr double sides_weight = 0.4;    // the straight finger behind the tip must have sides,
+constexpr double beyond_weight = 0.35;  // and none beyond it
+constexpr double in_front_px = 24;      // of the border: a touch at the screen's edge, seen by its whole tip
 constexpr double step_px = 3;
 constexpr double apart_px = 10;
+constexpr int rows_per_sum = 2;  // as many as a cell of the edge map
 
-float side_strength(const EdgeMap& edges, const FingerAxis& axis, double v) {
-  const auto u = static_cast<float>(axis.centre_u(v));
-  const auto a = static_cast<float>(axis.half_width(v));
-  const auto slope = static_cast<float>(axis.slope());
-  const auto row = static_cast<float>(v);
-  return edges.strength(u - a, row, 1, -slope) + edges.strength(u + a, row, 1, -slope);
-}
-
-// Mean strength of both sides over 2 half widths behind the tip's root.
-double sides_behind(const EdgeMap& edges, const FingerAxis& axis, double root_v, double a) {
-  constexpr int n = 10;
-  float sum = 0;
-  for (int i = 0; i < n; ++i)
-    sum += side_strength(edges, axis, root_v - (0.1 + 0.2 * i) * a);
-  return static_cast<double>(sum) / (2 * n);
-}
-
-// Likewise over the half width beyond the tip, where an edge may be two pixels off.
-double sides_beyond(const EdgeMap& edges, const FingerAxis& axis, double tip_v, double a) {
-  constexpr int n = 6;
-  const auto slope = static_cast<float>(axis.slope());
-  float sum = 0;
-  for (int i = 0; i < n; ++i) {
-    const double v = tip_v + (0.1 + 0.15 * i) * a;
-    for (const double side : {-a, a}) {
-      const auto u = static_cast<float>(axis.centre_u(v) + side);
-      const auto row = static_cast<float>(v);
-      sum += std::max({edges.strength(u - 2, row, 1, -slope), edges.strength(u, row, 1, -slope),
-                       edges.strength(u + 2, row, 1, -slope)});
-    }
+// Keeps the strongest of those guesses that are close together, and of them the strongest.
+template <typename Guesses>
+void keep_strongest(Guesses& guesses, const TipGuess& guess, double apart) {
+  const auto close = std::find_if(guesses.begin(), guesses.end(),
+                                  [&](const TipGuess& other) { return std::abs(other.tip_v - guess.tip_v) < apart; });
+  if (close != guesses.end()) {
+    if (guess.strength > close->strength) *close = guess;
+  } else if (guesses.size() < guesses.capacity()) {
+    guesses.push_back(guess);
+  } else {
+    const auto weakest = std::min_element(guesses.begin(), guesses.end(),
+                                          [](const auto& x, const auto& y) { return x.strength < y.strength; });
+    if (guess.strength > weakest->strength) *weakest = guess;
   }
-  return static_cast<double>(sum) / (2 * n);
 }
 
 }  // namespace
 
-TipSearch::TipSearch() {
+TipSearch::TipSearch(ImageSize largest) : sides_(static_cast<std::size_t>(largest.height_px / rows_per_sum + 2)) {
   constexpr int dense = 400;
   for (const double length : lengths) {
     // Points at equal distances along the ellipse's arc.
@@ -80,58 +65,99 @@ TipSearch::TipSearch() {
       const double nx = std::sin(angle);
       const double ny = std::cos(angle) / length;
       const double norm = std::hypot(nx, ny);
-      outline.points.push_back({p[0], p[1], nx / norm, ny / norm});
+      outline.points.push_back({static_cast<float>(p[0]), static_cast<float>(p[1]), static_cast<float>(nx / norm),
+                                static_cast<float>(ny / norm)});
     }
     outlines_.push_back(std::move(outline));
   }
 }
 
-TipGuess TipSearch::best_at(const EdgeMap& edges, const FingerAxis& axis, double tip_v) const {
+void TipSearch::sum_sides(const EdgeMap& edges, const FingerAxis& axis, double last_v) {
+  const auto slope = static_cast<float>(axis.slope());
+  const auto last = std::min(sides_.size() - 1, static_cast<std::size_t>(std::max(0.0, last_v / rows_per_sum)) + 1);
+  Sides sum;
+  for (std::size_t i = 0; i <= last; ++i) {
+    sides_[i] = sum;
+    const double v = rows_per_sum * (static_cast<double>(i) + 0.5);
+    const auto row = static_cast<float>(v);
+    for (const double side : {-axis.half_width(v), axis.half_width(v)}) {
+      const auto u = static_cast<float>(axis.centre_u(v) + side);
+      const float exact = edges.strength(u, row, 1, -slope);
+      sum.exact += static_cast<double>(exact);
+      sum.nearly += static_cast<double>(
+          std::max({edges.strength(u - 2, row, 1, -slope), exact, edges.strength(u + 2, row, 1, -slope)}));
+    }
+  }
+  last_sum_ = last;
+}
+
+double TipSearch::mean_side(double Sides::*kind, double first_v, double last_v) const {
+  const auto sum_to = [&](double v) {
+    const double index = std::clamp(v / rows_per_sum, 0.0, static_cast<double>(last_sum_));
+    return sides_[static_cast<std::size_t>(index)].*kind;
+  };
+  return (sum_to(last_v) - sum_to(first_v)) * rows_per_sum / (2 * (last_v - first_v));
+}
+
+TipSearch::Place TipSearch::place(const Outline& outline, const FingerAxis& axis, double tip_v) const {
+  const double a = axis.half_width(tip_v - outline.length * axis.half_width(tip_v));
+  const double root_v = tip_v - outline.length * a;
+  const double behind = mean_side(&Sides::exact, root_v - 2 * a, root_v);
+  const double beyond = mean_side(&Sides::nearly, tip_v, tip_v + a);
+  const double rare = outline.length > longest_usual ? rare_cost : 0;
+  return {a, sides_weight * behind - beyond_weight * beyond - rare};
+}
+
+TipGuess TipSearch::laid_over(const EdgeMap& edges, const Outline& outline, const Place& place, TipGuess guess,
+                              double width, std::size_t point_step) {
+  const double half_width = width * place.half_width_px;
+  guess.finger_half_width_px = place.half_width_px;
+  const auto u = static_cast<float>(guess.root_u);
+  const auto v = static_cast<float>(guess.root_v);
+  const auto a = static_cast<float>(half_width);
+  const auto lean = static_cast<float>(guess.lean);
+  float sum = 0;
+  for (std::size_t i = 0; i < outline.points.size(); i += point_step) {
+    const OutlinePoint& p = outline.points[i];
+    const float along = p.y * a;
+    sum += edges.strength(u + p.x * a + lean * along, v + along, p.nx, p.ny);
+  }
+  const std::size_t points = (outline.points.size() - 1) / point_step + 1;
+  guess.strength = static_cast<double>(sum) / static_cast<double>(points) + place.evidence_beside;
+  return guess;
+}
+
+TipGuess TipSearch::best_at(const EdgeMap& edges, const FingerAxis& axis, double tip_v, const Look& look) const {
   TipGuess best;
   best.strength = -1;
-  for (std::size_t k = 0; k < outlines_.size(); ++k) {
-    const Outline& outline = outlines_[k];
-    const double a = axis.half_width(tip_v - outline.length * axis.half_width(tip_v));
-    const double behind = sides_behind(edges, axis, tip_v - outline.length * a, a);
-    const double beyond = sides_beyond(edges, axis, tip_v, a);
-    const double rare = k >= long_from ? rare_cost : 0;
-    const double rest = sides_weight * behind - beyond_weight * beyond - rare;
-    for (const double width : widths) {
-      const double half_width = width * a;
-      const double root_v = tip_v - outline.length * half_width;
-      const double root_u = axis.centre_u(root_v);
-      for (const double extra_lean : leans) {
-        const double lean = axis.slope() + extra_lean;
-        float sum = 0;
-        for (const OutlinePoint& p : outline.points) {
-          const double along = p.y * half_width;
-          sum += edges.strength(static_cast<float>(root_u + p.x * half_width + lean * along),
-                                static_cast<float>(root_v + along), static_cast<float>(p.nx), static_cast<float>(p.ny));
-        }
-        const double strength = static_cast<double>(sum) / outline_points + rest;
-        if (strength > best.strength) best = {tip_v, root_u, root_v, a, lean, strength};
+  for (const Outline& outline : outlines_) {
+    const Place at = place(outline, axis, tip_v);
+    for (const double width : look.widths) {
+      TipGuess guess;
+      guess.tip_v = tip_v;
+      guess.root_v = tip_v - outline.length * width * at.half_width_px;
+      guess.root_u = axis.centre_u(guess.root_v);
+      for (const double extra_lean : look.leans) {
+        guess.lean = axis.slope() + extra_lean;
+        guess = laid_over(edges, outline, at, guess, width, look.point_step);
+        if (guess.strength > best.strength) best = guess;
       }
     }
   }
   return best;
 }
 
-TipSearch::Guesses TipSearch::find(const EdgeMap& edges, const FingerAxis& axis, double last_v, double scale) const {
+TipSearch::Guesses TipSearch::find(const EdgeMap& edges, const FingerAxis& axis, double last_v, double scale) {
+  sum_sides(edges, axis, last_v);
+  const double first_v = axis.border_v_px() - in_front_px * scale;
+  const double step = step_px * scale;
+  boost::container::static_vector<TipGuess, most_guesses + 1> coarse;
+  for (double tip_v = first_v; tip_v < last_v; tip_v += 2 * step)
+    keep_strongest(coarse, best_at(edges, axis, tip_v, {coarse_widths, coarse_leans, 2}), apart_px * scale);
   Guesses guesses;
-  for (double tip_v = axis.border_v_px() - in_front_px * scale; tip_v < last_v; tip_v += step_px * scale) {
-    const TipGuess guess = best_at(edges, axis, tip_v);
-    // The strongest of those that are close together stays.
-    const auto close = std::find_if(guesses.begin(), guesses.end(), [&](const TipGuess& other) {
-      return std::abs(other.tip_v - tip_v) < apart_px * scale;
-    });
-    if (close != guesses.end()) {
-      if (guess.strength > close->strength) *close = guess;
-    } else if (guesses.size() < guesses.capacity()) {
-      guesses.push_back(guess);
-    } else {
-      const auto weakest = std::min_element(guesses.begin(), guesses.end(),
-                                            [](const auto& x, const auto& y) { return x.strength < y.strength; });
-      if (guess.strength > weakest->strength) *weakest = guess;
+  for (const TipGuess& guess : coarse) {
+    for (const double tip_v : {guess.tip_v - step, guess.tip_v, guess.tip_v + step}) {
+      if (tip_v < last_v) keep_strongest(guesses, best_at(edges, axis, tip_v, {widths, leans, 1}), apart_px * scale);
     }
   }
   std::sort(guesses.begin(), guesses.end(), [](const auto& x, const auto& y) { return x.strength > y.strength; });

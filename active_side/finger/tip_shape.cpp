@@ -14,39 +14,76 @@ constexpr double inlier_px = 1.2;  // scale of the loss at the end
 constexpr double within_px = 2;    // counted as inliers
 constexpr double behind = -0.15;   // of the half length: farther back a finger has straight sides
 constexpr int rounds = 14;
+constexpr double settled_px = 0.02;  // a smaller step ends the fit
 constexpr double local_share = 0.7;  // of how far the outline's own points at the tip lie beside the ellipse
 
 using Vector5 = Eigen::Matrix<double, 5, 1>;
 using Matrix5 = Eigen::Matrix<double, 5, 5>;
 
 // Centre (u, v), half width, half length, and angle (turned so that the tip moves to the right).
-struct Ellipse {
-  Vector5 p;
+class Ellipse {
+ public:
+  explicit Ellipse(const Vector5& parameters) : p(parameters), sine_(std::sin(p[4])), cosine_(std::cos(p[4])) {}
 
+  const Vector5 p;
+
+  // Farther towards the tip than where a finger has straight sides.
+  [[nodiscard]] bool is_at_tip(const ImagePoint& point) const { return local(point).y >= behind * p[3]; }
+
+  struct Distance {
+    double px;
+    Vector5 gradient;  // by the parameters
+  };
+  // Signed, of first order (Sampson 1982), > 0 outside: with f = |(x / a, y / b)| it is (f - 1) / |grad f|, and
+  // |grad f| = g / f, g = |(x / a^2, y / b^2)|.
+  [[nodiscard]] Distance distance(const ImagePoint& point) const {
+    const auto [x, y] = local(point);
+    const double gx = x / (p[2] * p[2]);
+    const double gy = y / (p[3] * p[3]);
+    const double f = std::max(std::sqrt(x * gx + y * gy), 1e-6);
+    const double g = std::max(std::sqrt(gx * gx + gy * gy), 1e-9);
+    const double px = (f - 1) * f / g;
+    // d px = by_f df + by_g dg; moving the ellipse moves the point the other way.
+    const double by_f = (2 * f - 1) / g;
+    const double by_g = -px / g;
+    const double f_by_x = gx / f;
+    const double f_by_y = gy / f;
+    const double g_by_x = gx / (g * p[2] * p[2]);
+    const double g_by_y = gy / (g * p[3] * p[3]);
+    const double by_x = by_f * f_by_x + by_g * g_by_x;
+    const double by_y = by_f * f_by_y + by_g * g_by_y;
+    const double by_a = -(by_f * f_by_x + 2 * by_g * g_by_x) * x / p[2];
+    const double by_b = -(by_f * f_by_y + 2 * by_g * g_by_y) * y / p[3];
+    return {px, {-by_x * cosine_ - by_y * sine_, by_x * sine_ - by_y * cosine_, by_a, by_b, by_y * x - by_x * y}};
+  }
+
+  // Where v - slope u is largest.
+  [[nodiscard]] ImagePoint foremost(double slope) const {
+    const double x_along = -slope * cosine_ - sine_;
+    const double y_along = -slope * sine_ + cosine_;
+    const double norm = std::hypot(p[2] * x_along, p[3] * y_along);
+    const double x = p[2] * p[2] * x_along / norm;
+    const double y = p[3] * p[3] * y_along / norm;
+    return {p[0] + x * cosine_ + y * sine_, p[1] - x * sine_ + y * cosine_};
+  }
+
+ private:
   struct Local {
     double x;
     double y;
   };
   [[nodiscard]] Local local(const ImagePoint& point) const {
-    const double s = std::sin(p[4]);
-    const double c = std::cos(p[4]);
     const double du = point.u_px - p[0];
     const double dv = point.v_px - p[1];
-    return {du * c - dv * s, du * s + dv * c};
+    return {du * cosine_ - dv * sine_, du * sine_ + dv * cosine_};
   }
-  // Signed distance of first order (Sampson 1982); > 0 outside.
-  [[nodiscard]] double distance(const ImagePoint& point) const {
-    const auto [x, y] = local(point);
-    const double fx = x / p[2];
-    const double fy = y / p[3];
-    const double f = std::max(std::hypot(fx, fy), 1e-6);
-    return (f - 1) / std::max(std::hypot(fx / p[2], fy / p[3]) / f, 1e-9);
-  }
+
+  double sine_;
+  double cosine_;
 };
 
-}  // namespace
-
-TipShape fit_tip_shape(const TipContour& contour, double half_width_px, double slope) {
+// From the contour's foremost points.
+Vector5 first_guess(const TipContour& contour, double half_width_px) {
   double farthest_v = -std::numeric_limits<double>::max();
   for (const ImagePoint& point : contour.points)
     farthest_v = std::max(farthest_v, point.v_px);
@@ -57,68 +94,62 @@ TipShape fit_tip_shape(const TipContour& contour, double half_width_px, double s
     left = std::min(left, point.u_px);
     right = std::max(right, point.u_px);
   }
+  return {0.5 * (left + right), farthest_v - half_width_px, 0.5 * (right - left), half_width_px, 0};
+}
+
+// The loss is wide at first, so that a poor beginning does not lose the right points.
+double loss_scale(int round) {
+  return inlier_px * (round < 4 ? 4 : round < 8 ? 2 : 1);
+}
+
+// Gauss-Newton with weights that fall off for points beside the ellipse (Geman and McClure 1985).
+Ellipse fitted(const TipContour& contour, double half_width_px) {
   const double a0 = half_width_px;
-  Ellipse ellipse{Vector5{0.5 * (left + right), farthest_v - a0, 0.5 * (right - left), a0, 0}};
-  const Vector5 usual = ellipse.p;
+  const Vector5 usual = first_guess(contour, a0);
   const Vector5 spread{0.5 * a0, 0.6 * a0, 0.25 * a0, 0.5 * a0, 0.35};
   const Vector5 largest_step{0.3 * a0, 0.3 * a0, 0.3 * a0, 0.3 * a0, 0.15};
-
+  const Vector5 prior = inlier_px * inlier_px * spread.cwiseAbs2().cwiseInverse();
+  Vector5 p = usual;
   for (int round = 0; round < rounds; ++round) {
-    // The loss is wide at first, so that a poor beginning does not lose the right points.
-    const double scale = inlier_px * (round < 4 ? 4 : round < 8 ? 2 : 1);
-    Matrix5 normal = Matrix5::Zero();
-    Vector5 right_side = Vector5::Zero();
+    const double scale = loss_scale(round);
+    const Ellipse ellipse(p);
+    Matrix5 normal = prior.asDiagonal();
+    Vector5 right_side = prior.cwiseProduct(usual - p);
     for (std::size_t i = 0; i < TipContour::angles; ++i) {
-      const ImagePoint& point = contour.points[i];
-      if (ellipse.local(point).y < behind * ellipse.p[3]) continue;
-      const double residual = ellipse.distance(point);
-      Vector5 gradient;
-      for (int k = 0; k < 5; ++k) {
-        const double h = k == 4 ? 1e-3 : 0.05;
-        Ellipse moved = ellipse;
-        moved.p[k] += h;
-        gradient[k] = (moved.distance(point) - residual) / h;
-      }
+      if (!ellipse.is_at_tip(contour.points[i])) continue;
+      const auto [residual, gradient] = ellipse.distance(contour.points[i]);
       const double z = residual / scale;
       const double weight = (0.1 + static_cast<double>(contour.edge[i])) / ((1 + z * z) * (1 + z * z));
-      normal += weight * gradient * gradient.transpose();
+      normal.noalias() += weight * gradient * gradient.transpose();
       right_side -= weight * residual * gradient;
     }
-    for (int k = 0; k < 5; ++k) {
-      const double weight = inlier_px * inlier_px / (spread[k] * spread[k]);
-      normal(k, k) += weight;
-      right_side[k] += weight * (usual[k] - ellipse.p[k]);
-    }
-    const Vector5 step = normal.ldlt().solve(right_side);
-    ellipse.p += step.cwiseMin(largest_step).cwiseMax(-largest_step);
-    ellipse.p[2] = std::clamp(ellipse.p[2], 0.4 * a0, 1.6 * a0);
-    ellipse.p[3] = std::clamp(ellipse.p[3], 0.4 * a0, 3 * a0);
-    ellipse.p[4] = std::clamp(ellipse.p[4], -0.8, 0.8);
+    const Vector5 step = normal.ldlt().solve(right_side).cwiseMin(largest_step).cwiseMax(-largest_step);
+    p += step;
+    p[2] = std::clamp(p[2], 0.4 * a0, 1.6 * a0);
+    p[3] = std::clamp(p[3], 0.4 * a0, 3 * a0);
+    p[4] = std::clamp(p[4], -0.8, 0.8);
+    const bool settled = step.head<4>().cwiseAbs().maxCoeff() < settled_px && std::abs(step[4]) * a0 < settled_px;
+    if (settled && scale <= inlier_px) break;
   }
+  return Ellipse(p);
+}
 
-  // The point of the ellipse where v - slope u is largest.
-  const double s = std::sin(ellipse.p[4]);
-  const double c = std::cos(ellipse.p[4]);
-  const double x_along = -slope * c - s;
-  const double y_along = -slope * s + c;
-  const double a = ellipse.p[2];
-  const double b = ellipse.p[3];
-  const double norm = std::hypot(a * x_along, b * y_along);
-  const double x = a * a * x_along / norm;
-  const double y = b * b * y_along / norm;
-  TipShape shape{{ellipse.p[0] + x * c + y * s, ellipse.p[1] - x * s + y * c}, a, b, 0};
+}  // namespace
 
+TipShape fit_tip_shape(const TipContour& contour, double half_width_px, double slope) {
+  const Ellipse ellipse = fitted(contour, half_width_px);
+  TipShape shape{ellipse.foremost(slope), ellipse.p[2], ellipse.p[3], 0};
   double inliers = 0;
   double counted = 0;
   double local = 0;
   double local_sum = 0;
   for (const ImagePoint& point : contour.points) {
-    if (ellipse.local(point).y < behind * b) continue;
-    const double residual = ellipse.distance(point);
+    if (!ellipse.is_at_tip(point)) continue;
+    const double residual = ellipse.distance(point).px;
     const bool inlier = std::abs(residual) < within_px;
     counted += 1;
     inliers += inlier ? 1 : 0;
-    if (inlier && std::abs(point.u_px - shape.tip.u_px) < 0.35 * a0) {
+    if (inlier && std::abs(point.u_px - shape.tip.u_px) < 0.35 * half_width_px) {
       local += 1;
       local_sum += residual;
     }

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "bench/touch/default_figures.hpp"
+
+#include <array>
+#include <cstdint>
+#include <stdexcept>
+#include <utility>
+
+#include "bench/touch/detector_stages.hpp"
+#include "bench/touch/touch_path.hpp"
+#include "calibration/border_curve.hpp"
+#include "calibration/rig_camera.hpp"
+#include "calibration/rig_model.hpp"
+#include "capture/virtual_rig/random_frame.hpp"
+#include "capture/virtual_rig/random_rig.hpp"
+#include "capture/virtual_rig/rig_renderer.hpp"
+#include "finger/finger_detector.hpp"
+
+namespace telehug {
+namespace {
+
+constexpr std::uint64_t rig_seed = 11;
+constexpr int pictures = 24;
+
+RigCamera known_camera(const VirtualRigSettings& rig) {
+  const RigPoint& place = rig.camera.position_mm;
+  return {{rig.focal_px,
+           rig.distortion_k1,
+           {place[0], place[1], place[2]},
+           rig.camera.pitch_deg,
+           rig.camera.yaw_deg,
+           rig.camera.roll_deg},
+          rig.image};
+}
+
+// Five fingers: two of the left hand, two of the right hand, and one of somebody between them.
+std::vector<HandPose> hands(const RandomRig& rig, int fingers, std::uint64_t seed) {
+  if (fingers == 1) return random_frame(rig, FrameKind::touch, seed).hands;
+  const ScreenSize& screen = rig.settings.screen;
+  std::vector<HandPose> all;
+  for (const double place : {0.3, 0.5, 0.7}) {
+    HandLooks looks = rig.users.front();
+    looks.left = place < 0.5;
+    const ScreenPoint point{place * screen.width_mm, (0.72 + 0.04 * static_cast<double>(seed % 5)) * screen.height_mm};
+    HandPose hand = random_pose(rig.settings, looks, {point, 0}, seed);
+    hand.lean_deg = 0;
+    if (place != 0.5) hand.second = FingerPlace{{point.x_mm + (looks.left ? -28 : 28), point.y_mm}, 0};
+    all.push_back(hand);
+  }
+  return all;
+}
+
+}  // namespace
+
+Figures measure_default(ImageSize image, int fingers, const std::string& suffix) {
+  const RandomRig rig = random_rig(rig_seed, image);
+  RigRenderer renderer(rig.settings);
+  cv::Mat empty;
+  renderer.draw(std::vector<HandPose>{}, 0, empty);
+  const RigCamera camera = known_camera(rig.settings);
+  const BorderCurve border(camera, rig.settings.screen);
+  FingerDetector detector(border, empty);
+  detector.know_camera(camera);
+
+  TouchedRig touched{image, rig.settings.screen, RigModel{camera, 5}, {}};
+  const auto wanted = static_cast<std::size_t>(fingers);
+  constexpr std::uint64_t most_tries = 200;
+  for (std::uint64_t seed = 1; seed < most_tries && touched.pictures.size() < pictures; ++seed) {
+    cv::Mat picture;
+    renderer.draw(hands(rig, fingers, seed), seed, picture);
+    if (detector.detect(picture).size() == wanted) touched.pictures.push_back(std::move(picture));
+  }
+  if (touched.pictures.size() < pictures) throw std::runtime_error("too few pictures with all fingers in them");
+
+  Figures figures = measure_path(detector, touched, "", suffix);
+  for (Figure& figure : measure_stages(border, empty, touched.pictures, suffix))
+    figures.push_back(std::move(figure));
+  return figures;
+}
+
+}  // namespace telehug
