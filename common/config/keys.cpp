@@ -116,9 +116,9 @@ std::vector<Key> keys_of(ActiveConfig& c) {
        "Height of the desktop, which a calibration notes; 0: unknown, or as calibrated."},
 
       {"touch", "detector", &c.touch.detector, "", OneOf{{"default", "thesis"}},
-       "How the finger is found; default: the best there is, at present the thesis'."},
+       "How fingers are found; default: several, compared with how the rig looks with nobody there; thesis: one."},
       {"touch", "model", &c.touch.model, "", OneOf{{"default", "thesis"}},
-       "How a finger in the image becomes a point on the screen; default: whatever the calibration holds."},
+       "How a finger in the image becomes a point on the screen; default: whatever the calibration holds; also what `calibrate` solves."},
       {"touch", "up_after_ms", &c.touch.up_after_ms, "ms", Range{0, 1000},
        "How long a finger must be unseen before its touch ends."},
 

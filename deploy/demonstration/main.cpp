@@ -32,7 +32,10 @@ struct Options {
   bool keep = false;
 };
 
-constexpr double largest_mean_error_mm = 10;  // a touch farther off than that counts as wrong
+// Measured: 1.5 mm along the finger, 0.3 mm across; the place of a touch that begins or ends between two frames, and a
+// busy PC's dropped frames, take their part.
+constexpr double largest_mean_vertical_mm = 4;
+constexpr double largest_mean_horizontal_mm = 2;
 
 constexpr Duration last_words = 1s;     // what was touched before the end is still answered and ends
 constexpr Duration longest_touch = 5s;  // that the end waits for
@@ -155,7 +158,8 @@ ExitCode run(const Options& options) {
         truth.frames, truth.mean_vertical_mm, truth.mean_horizontal_mm, truth.worst_mm, truth.without_touch);
     if (truth.frames == 0) wrong.emplace_back("no published touch was a real one");
     if (truth.without_touch > 0) wrong.emplace_back("touches were published that did not happen");
-    if (truth.mean_vertical_mm > largest_mean_error_mm || truth.mean_horizontal_mm > largest_mean_error_mm) {
+    if (truth.mean_vertical_mm > largest_mean_vertical_mm ||
+        truth.mean_horizontal_mm > largest_mean_horizontal_mm) {
       wrong.emplace_back("the touches were published at wrong places");
     }
   }

@@ -256,13 +256,13 @@ TEST_F(ActivePipelineTest, EndsATouchAndBeginsNoneWhileThePicturesCantBeBelieved
   ASSERT_NE(see(touching()), nullptr);
   const cv::Mat black(image.height_px, image.width_px, CV_8UC3, cv::Scalar(0, 0, 0));
   const TouchEvent* event = nullptr;
-  for (int i = 0; i < 5; ++i)
+  for (int i = 0; i < 6; ++i)
     event = see(black);
   ASSERT_NE(event, nullptr);
   EXPECT_EQ(event->transitions.back().contact.phase, Phase::up);
   EXPECT_TRUE(event->contacts.empty());
   EXPECT_EQ(pipeline.verdict(), FrameVerdict::blank);
-  EXPECT_EQ(counter("frames_blank"), 5U);
+  EXPECT_EQ(counter("frames_blank"), 6U);
   for (int i = 0; i < 8; ++i)
     event = see(touching());
   EXPECT_EQ(pipeline.verdict(), FrameVerdict::good);
@@ -274,7 +274,7 @@ TEST_F(ActivePipelineTest, EndsATouchOfACameraThatHangs) {
   ActivePipeline hanging(calibration(), detector_of(calibration(), "default", nobody()), ActivePipelineOptions{},
                          example_session, clock, metrics);
   const TouchEvent* event = nullptr;
-  for (int i = 0; i < 20; ++i) {
+  for (int i = 0; i < 22; ++i) {
     clock.advance(frame_period);
     map.seen = frame.time = clock.now();
     frame.bgr = touching();
