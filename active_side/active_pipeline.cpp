@@ -98,6 +98,7 @@ const TouchEvent* ActivePipeline::report(const ContactStates& contacts, const Bo
   const auto body = map.version != 0 ? std::optional(map.grid) : std::nullopt;
   contacts_ = &gestures_.update(contacts, body);
   const BoxedContacts boxed = sending ? boxes_under(*contacts_, map, max_map_age_, tracked, nobody_) : BoxedContacts{};
+  if (!sending) builder_.withhold_downs();
   const TouchEvent* event = builder_.build(boxed, map.shape, map.version, frame_time, clock_.now());
 
   const auto begins = [](const ContactState& contact) { return contact.phase == Phase::down; };

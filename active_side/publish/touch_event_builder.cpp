@@ -31,6 +31,11 @@ const TouchEvent* TouchEventBuilder::build(const BoxedContacts& contacts, GridSh
   return &event_;
 }
 
+void TouchEventBuilder::withhold_downs() {
+  const auto down = [](const Pending& pending) { return pending.transition.contact.phase == Phase::down; };
+  pending_.erase(std::remove_if(pending_.begin(), pending_.end(), down), pending_.end());
+}
+
 void TouchEventBuilder::forget_old_transitions(Timestamp frame_time) {
   const auto told_enough = [&](const Pending& pending) {
     return pending.told > max_repeats || frame_time - from_ns(pending.transition.frame_time_ns) >= max_repeat_time;

@@ -47,6 +47,9 @@ class TouchEventBuilder {
   const TouchEvent* build(const BoxedContacts& contacts, GridShape grid, std::uint32_t body_map_version,
                           Timestamp frame_time, Timestamp now);
 
+  // Repeats no begin of a touch any longer: what was stopped meanwhile is not felt by a jacket that starts just then.
+  void withhold_downs();
+
  private:
   struct Pending {
     Transition transition;
