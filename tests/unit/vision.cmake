@@ -20,8 +20,12 @@ telehug_test(test_finger KIND unit SUBJECT touch
           unit/finger/finger_edges_test.cpp unit/finger/mirror_evidence_test.cpp
           unit/finger/recorded_mirrors_test.cpp unit/finger/thesis_detector_test.cpp
   DEPS active_finger telehug_pictures opencv::imgproc)
+telehug_test(test_background KIND unit SUBJECT touch
+  SOURCES unit/finger/background_file_test.cpp unit/finger/background_learner_test.cpp
+  DEPS active_finger telehug_pictures)
 telehug_test(test_touch KIND unit SUBJECT touch
-  SOURCES doubles/allocation_counter.cpp unit/touch/contact_tracker_test.cpp
-          unit/touch/gesture_recogniser_test.cpp unit/touch/screen_points_test.cpp
+  SOURCES doubles/allocation_counter.cpp unit/touch/assignment_test.cpp unit/touch/contact_smoothing_test.cpp
+          unit/touch/contact_tracker_test.cpp unit/touch/finger_tracks_test.cpp unit/touch/gesture_recogniser_test.cpp
+          unit/touch/sample_sequences_test.cpp unit/touch/screen_points_test.cpp unit/touch/touch_decision_test.cpp
   DEPS active_touch active_calibration)
 telehug_test(test_eval KIND unit SUBJECT touch SOURCES unit/eval/touch_score_test.cpp DEPS active_eval)
