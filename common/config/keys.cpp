@@ -118,7 +118,8 @@ std::vector<Key> keys_of(ActiveConfig& c) {
       {"touch", "detector", &c.touch.detector, "", OneOf{{"default", "thesis"}},
        "How fingers are found; default: several, compared with how the rig looks with nobody there; thesis: one."},
       {"touch", "model", &c.touch.model, "", OneOf{{"default", "thesis"}},
-       "How a finger in the image becomes a point on the screen; default: whatever the calibration holds; also what `calibrate` solves."},
+       "How a finger in the image becomes a point on the screen; default: whatever the calibration holds; also what "
+       "`calibrate` solves."},
       {"touch", "up_after_ms", &c.touch.up_after_ms, "ms", Range{0, 1000},
        "How long a finger must be unseen before its touch ends."},
 

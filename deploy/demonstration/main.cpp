@@ -158,8 +158,7 @@ ExitCode run(const Options& options) {
         truth.frames, truth.mean_vertical_mm, truth.mean_horizontal_mm, truth.worst_mm, truth.without_touch);
     if (truth.frames == 0) wrong.emplace_back("no published touch was a real one");
     if (truth.without_touch > 0) wrong.emplace_back("touches were published that did not happen");
-    if (truth.mean_vertical_mm > largest_mean_vertical_mm ||
-        truth.mean_horizontal_mm > largest_mean_horizontal_mm) {
+    if (truth.mean_vertical_mm > largest_mean_vertical_mm || truth.mean_horizontal_mm > largest_mean_horizontal_mm) {
       wrong.emplace_back("the touches were published at wrong places");
     }
   }

@@ -14,7 +14,8 @@ TEST(CameraSource, IsAWebcamARecordingOrTheVirtualRig) {
   ASSERT_TRUE(recording);
   EXPECT_EQ(recording->kind, CameraSourceKind::recording);
   EXPECT_EQ(recording->folder, "/a/b:c");
-  for (const char* wrong : {"", "replay:", "replay", "webcam ", "VIRTUAL", "virtual:", "virtual:-1", "virtual:x", "virtual:1234567890"})
+  for (const char* wrong :
+       {"", "replay:", "replay", "webcam ", "VIRTUAL", "virtual:", "virtual:-1", "virtual:x", "virtual:1234567890"})
     EXPECT_FALSE(parse_camera_source(wrong));
 }
 
