@@ -14,8 +14,7 @@ constexpr float uneven_light = 0.06F;
 constexpr float like_background = 2;  // distance below which a cell helps to find the gain
 constexpr float dark = 3;             // keeps ratios of black cells finite
 constexpr int levelling_rounds = 2;
-constexpr int median_step = 8;     // every how many cells the first gain looks at,
-constexpr int levelling_step = 1;  // and the better ones
+constexpr int median_step = 8;  // every how many cells the first gain looks at
 
 // Shares of the way to the present frame, at 30 frames a second: half a second, 20 seconds, 2 minutes.
 constexpr float learn_background = 1.0F / 15;
@@ -86,7 +85,7 @@ BackgroundStrip::Gain BackgroundStrip::better_gain(const RailView& rail, const G
   Gain now{};
   Gain then{};
   float alike_cells = 0;
-  for (int i = 0; i < columns_; i += levelling_step) {
+  for (int i = 0; i < columns_; ++i) {
     const float alike = distance2(rail, gain, i) < limit ? 1.0F : 0.0F;
     for (std::size_t k = 0; k < gain.size(); ++k) {
       now[k] += alike * (rail.now[k][i] + dark);
@@ -94,7 +93,7 @@ BackgroundStrip::Gain BackgroundStrip::better_gain(const RailView& rail, const G
     }
     alike_cells += alike;
   }
-  if (alike_cells * levelling_step <= 0.1F * static_cast<float>(columns_)) return gain;
+  if (alike_cells <= 0.1F * static_cast<float>(columns_)) return gain;
   return {then[0] / now[0], then[1] / now[1], then[2] / now[2]};
 }
 
