@@ -7,6 +7,7 @@
 
 #include "config/places.hpp"
 #include "daemon/daemon_settings.hpp"
+#include "local_outputs.hpp"
 #include "peer/session_id.hpp"
 
 namespace telehug {
@@ -39,6 +40,7 @@ ActiveDaemon::ActiveDaemon(const ActiveConfig& config, std::unique_ptr<FrameSour
       camera_latency_(metrics_.latency("camera")),
       publish_latency_(metrics_.latency("publish")),
       total_latency_(metrics_.latency("frame_to_published")),
+      local_touch_(local_outputs(config.local_touch), clock),
       calibration_path_(rig_file(config.rig)),
       felt_reader_(std::make_unique<Reader<Felt>>(participant_, [this](const Felt& felt) { felt_.push(felt); })),
       control_(std::make_unique<ControlServer>(control_options(config.control, Side::active))) {
@@ -64,6 +66,7 @@ ExitCode ActiveDaemon::run(Signals& signals) {
     if (request == SignalRequest::reload) calibration_time_.reset();
     load_rig_if_changed();
     tell_watchers();
+    tell_local_touch();
     tell_peer();
   }
   notifier_.stopping();
@@ -105,11 +108,12 @@ void ActiveDaemon::adopt_rig() {
 
 bool ActiveDaemon::camera_wanted(Timestamp now) {
   const bool touches_go_out = rig_ && peer_.alive(now) && !stop_.stopped() && !peer_.stopped_by_peer();
-  if (!touches_go_out) recording_over_ = false;
-  const bool wanted = touches_go_out && !recording_over_;
-  if (rig_) rig_->face->want(wanted);
-  // Before it is known where the remote person is, fingers mean nothing.
-  return wanted && rig_->face->has_looked();
+  const bool used_here = rig_ && local_touch_.on() && !stop_.stopped();
+  if (!touches_go_out && !used_here) recording_over_ = false;
+  if (rig_) rig_->face->want(touches_go_out && !recording_over_);
+  // Before it is known where the remote person is, fingers mean nothing to the other side.
+  sending_ = touches_go_out && rig_->face->has_looked();
+  return (sending_ || used_here) && !recording_over_;
 }
 
 void ActiveDaemon::take_frame() {
@@ -126,7 +130,7 @@ void ActiveDaemon::take_frame() {
     case ReadOutcome::frame:
       camera_latency_.record(clock_.now() - frame_.time);
       if (before != 0 && frame_.sequence > before + 1) frames_missed_.add(frame_.sequence - before - 1);
-      publish(rig_->pipeline.process(frame_, map_, true), frame_.sequence);
+      publish(rig_->pipeline.process(frame_, map_, sending_), frame_.sequence);
       return;
     case ReadOutcome::broken:
       frames_broken_.add();
@@ -141,7 +145,7 @@ void ActiveDaemon::take_frame() {
       std::this_thread::sleep_for(resting_round);
       break;
   }
-  publish(rig_->pipeline.process_nothing(map_, true), frame_.sequence);
+  publish(rig_->pipeline.process_nothing(map_, sending_), frame_.sequence);
 }
 
 void ActiveDaemon::rest() {
@@ -155,6 +159,7 @@ void ActiveDaemon::rest() {
 }
 
 void ActiveDaemon::publish(const TouchEvent* event, std::uint64_t frame_sequence) {
+  local_touch_.put(rig_->pipeline.contacts(), rig_->pipeline.screen(), clock_.now());
   if (event == nullptr) return;
   const Timestamp started = clock_.now();
   if (!touch_writer_.write(*event)) {
@@ -190,10 +195,15 @@ void ActiveDaemon::tell_state(Timestamp now) {
   own_state_.camera_lost = camera_lost_;
   own_state_.recording_over = recording_over_;
   own_state_.camera_problem = camera_->last_error();
+  own_state_.camera_setup = camera_->is_open() ? camera_->setup() : "";
   own_state_.face = rig_ ? rig_->face : nullptr;
+  own_state_.detector = rig_ ? rig_->detector : "";
   own_state_.model = rig_ ? rig_->model : "";
+  own_state_.knows_background = !rig_ || rig_->pipeline.knows_background();
   own_state_.peer = peer_.state(now);
+  own_state_.picture = rig_ && own_state_.camera_open ? rig_->pipeline.verdict() : FrameVerdict::good;
   if (rig_) own_state_.nobody = rig_->pipeline.nobody_touched();
+  own_state_.camera_drift = rig_ ? rig_->pipeline.camera_drift() : DriftState::steady;
   state_ = own_state_;
 }
 
@@ -211,8 +221,10 @@ void ActiveDaemon::load_rig_if_changed() {
   auto rig = make_rig(config_, session_, clock_, metrics_);
   const std::string problem = rig ? "" : rig.error().message;
   if (rig) {
+    const std::string& note = (*rig)->note;
+    say_rig_.say(note.empty() ? spdlog::level::info : spdlog::level::warn,
+                 fmt::format("calibration: {}{}{}", calibration_path_.string(), note.empty() ? "" : "; ", note));
     new_rig_.put(*std::move(rig));
-    say_rig_.say(spdlog::level::info, fmt::format("calibration: {}", calibration_path_.string()));
   } else {
     say_rig_.say(spdlog::level::warn, problem);
   }

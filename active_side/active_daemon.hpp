@@ -18,6 +18,7 @@
 #include "dds/participant.hpp"
 #include "dds/reader.hpp"
 #include "dds/writer.hpp"
+#include "local_touch/local_touch.hpp"
 #include "peer_link/peer_link.hpp"
 #include "rig.hpp"
 #include "service/control_server.hpp"
@@ -43,15 +44,21 @@ struct TouchThreadState {
   bool camera_lost = false;
   bool recording_over = false;
   std::string camera_problem;
+  std::string camera_setup;
+  FrameVerdict picture = FrameVerdict::good;
   std::shared_ptr<FaceWorker> face;
-  const char* model = "";  // of the calibration in use; empty: there is none
+  std::string detector;  // in use; empty: there is no calibration
+  std::string model;     // likewise
+  bool knows_background = true;
   PeerState peer;
   NobodyTouched nobody;
+  DriftState camera_drift = DriftState::steady;
   std::optional<SentTouch> last_touch;
 };
 
 // The parent's PC: one thread for the touch path, one for the face (FaceWorker), the calling one for everything that
-// may take its time. The camera is open and the screen looked at only while a peer is connected.
+// may take its time. The camera is open only while a peer is connected or this
+// PC uses the touches itself, and the screen is looked at only while a peer is connected.
 class ActiveDaemon {
  public:
   // Throws AlreadyRunning, std::runtime_error or std::invalid_argument with a sentence for a person.
@@ -78,6 +85,7 @@ class ActiveDaemon {
   // Housekeeping
   void load_rig_if_changed();
   void tell_watchers();
+  void tell_local_touch();
   void tell_peer();
   void answer_commands();
   nlohmann::json status() const;
@@ -103,6 +111,7 @@ class ActiveDaemon {
   BodyMap map_;
   bool camera_lost_ = false;
   bool recording_over_ = false;
+  bool sending_ = false;
   Timestamp told_state_;
   TouchThreadState own_state_;
   Counter& events_published_;
@@ -117,6 +126,7 @@ class ActiveDaemon {
 
   // Between the threads
   LatestSlot<std::unique_ptr<Rig>> new_rig_;
+  LocalTouch local_touch_;
   StopSwitch stop_;
   std::atomic<bool> ending_ = false;
   mutable std::mutex state_mutex_;
@@ -136,6 +146,7 @@ class ActiveDaemon {
   SayOnChange say_peer_;
   SayOnChange say_face_;
   SayOnChange say_rig_;
+  SayOnChange say_local_touch_;
 
   std::unique_ptr<Reader<Felt>> felt_reader_;
   std::unique_ptr<ControlServer> control_;

@@ -2,50 +2,94 @@
 #include "active_pipeline.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "touch/screen_points.hpp"
 
 namespace telehug {
+namespace {
 
-ActivePipeline::ActivePipeline(const Calibration& calibration, const ActivePipelineOptions& options,
-                               const SessionId& session, const Clock& clock, MetricsRegistry& metrics)
+BorderPlace place_of(const BorderLine& border) {
+  return {border.v0_px, border.slope};
+}
+
+}  // namespace
+
+ActivePipeline::ActivePipeline(const Calibration& calibration, AnyDetector detector,
+                               const ActivePipelineOptions& options, const SessionId& session, const Clock& clock,
+                               MetricsRegistry& metrics)
     : image_(calibration.image),
       screen_(calibration.screen),
-      model_(calibration.model()),
-      detector_(calibration.border, calibration.image, options.detector),
+      upright_(calibration.image, is_upside_down(calibration)),
+      camera_watch_(upright(calibration)),
+      frame_check_(calibration.image, place_of(upright(calibration).border), options.frames),
+      detector_(std::move(detector)),
       tracker_(options.tracker),
+      gestures_(options.gestures),
       builder_(session),
       max_map_age_(options.max_map_age),
       clock_(clock),
       frames_(metrics.counter("frames")),
-      frames_unfit_(metrics.counter("frames_of_another_size")),
+      frames_by_verdict_{&metrics.counter("frames_good"),   &metrics.counter("frames_of_another_size"),
+                         &metrics.counter("frames_blank"),  &metrics.counter("frames_torn"),
+                         &metrics.counter("frames_frozen"), &metrics.counter("frames_turned")},
+      frames_duplicate_(metrics.counter("frames_duplicate")),
+      light_changes_(metrics.counter("light_changes")),
       fingers_off_screen_(metrics.counter("fingers_off_screen")),
+      background_relearned_(metrics.counter("background_relearned")),
       touches_seen_(metrics.counter("touches_seen")),
+      check_latency_(metrics.latency("frame_check")),
       finger_latency_(metrics.latency("finger")),
       touch_latency_(metrics.latency("touch")),
       box_latency_(metrics.latency("box")) {}
 
 const TouchEvent* ActivePipeline::process(const Frame& frame, const BodyMap& map, bool sending) {
   const Timestamp started = clock_.now();
-  const Fingers& fingers = detector_.detect(frame.bgr);
-  finger_latency_.record(clock_.now() - started);
-  const TouchedPoints touched = screen_points(fingers, model_, screen_, image_);
-  frames_.add();
-  frames_unfit_.set(detector_.unfit_pictures());
+  const cv::Mat& picture = upright_.of(frame.bgr);
+  const FrameFindings findings = frame_check_.check(picture);
+  const Timestamp checked = clock_.now();
+  check_latency_.record(checked - started);
+  count(findings);
+  if (findings.verdict != FrameVerdict::good) return report({}, Scene::disturbed, map, sending, frame.time);
+
+  const Fingers& fingers = detect(detector_, picture);
+  if (!findings.settling) adapt(detector_, started);
+  finger_latency_.record(clock_.now() - checked);
+  camera_watch_.look(picture, !fingers.empty() || !knows_background(), started);
+  const bool believed = knows_background() && camera_watch_.trusts_camera();
+  const TouchedPoints touched = screen_points(believed ? fingers : Fingers{}, camera_watch_.model(), screen_, image_);
   fingers_off_screen_.add(touched.dropped);
-  return report(touched.points, map, sending, frame.time);
+  // What seems to begin while the light changes is the light's doing.
+  const bool disturbed = findings.settling || !knows_background();
+  return report(touched.fingers, disturbed ? Scene::disturbed : Scene::steady, map, sending, frame.time);
 }
 
 const TouchEvent* ActivePipeline::process_nothing(const BodyMap& map, bool sending) {
-  return report({}, map, sending, clock_.now());
+  return report({}, Scene::steady, map, sending, clock_.now());
 }
 
-const TouchEvent* ActivePipeline::report(const ScreenPoints& points, const BodyMap& map, bool sending,
+bool ActivePipeline::knows_background() const noexcept {
+  const BackgroundLearner* const learner = background(detector_);
+  return learner == nullptr || learner->trusts();
+}
+
+void ActivePipeline::count(const FrameFindings& findings) {
+  frames_.add();
+  frames_by_verdict_[static_cast<std::size_t>(findings.verdict)]->add();
+  if (findings.duplicate) frames_duplicate_.add();
+  if (findings.settling && !light_settles_) light_changes_.add();
+  light_settles_ = findings.settling;
+  verdict_ = findings.verdict;
+  if (const BackgroundLearner* const learner = background(detector_)) background_relearned_.set(learner->relearned());
+}
+
+const TouchEvent* ActivePipeline::report(const FingerObservations& fingers, Scene scene, const BodyMap& map, bool sending,
                                          Timestamp frame_time) {
   const Timestamp started = clock_.now();
   // A camera that comes back stamps its first frame a little before the time at which it was last missed.
   frame_time = newest_ = std::max(frame_time, newest_ + Duration{1});
-  contacts_ = &tracker_.update(points, frame_time);
+  const auto body = map.version != 0 ? std::optional(map.grid) : std::nullopt;
+  contacts_ = &gestures_.update(tracker_.update(fingers, frame_time, scene), body);
   const Timestamp tracked = clock_.now();
   const BoxedContacts boxed = sending ? boxes_under(*contacts_, map, max_map_age_, tracked, nobody_) : BoxedContacts{};
   const TouchEvent* event = builder_.build(boxed, map.shape, map.version, frame_time, clock_.now());

@@ -1,21 +1,28 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
+
 #include "body_map/body_map.hpp"
 #include "boxes_under.hpp"
 #include "calibration/calibration.hpp"
+#include "calibration/camera_watch.hpp"
 #include "capture/frame.hpp"
+#include "capture/frame_check.hpp"
 #include "common/clock.hpp"
-#include "finger/thesis_detector.hpp"
+#include "finger/any_detector.hpp"
 #include "publish/touch_event_builder.hpp"
 #include "service/metrics.hpp"
 #include "touch/contact_tracker.hpp"
+#include "touch/gesture_recogniser.hpp"
+#include "upright_picture.hpp"
 
 namespace telehug {
 
 struct ActivePipelineOptions {
-  ThesisOptions detector;
-  TrackerOptions tracker;
+  FrameCheckOptions frames;
+  TrackerOptions tracker{.every_finger_touches = true};  // detectors can't tell
+  GestureOptions gestures;
   Duration max_map_age = 3s;
 };
 
@@ -23,9 +30,9 @@ struct ActivePipelineOptions {
 // wire. One thread uses it; it allocates nothing per frame.
 class ActivePipeline {
  public:
-  // Throws std::invalid_argument if no finger could be seen with this calibration. `clock`, `metrics` outlive it.
-  ActivePipeline(const Calibration& calibration, const ActivePipelineOptions& options, const SessionId& session,
-                 const Clock& clock, MetricsRegistry& metrics);
+  // `detector` is made for the upright() calibration. `clock`, `metrics` outlive it.
+  ActivePipeline(const Calibration& calibration, AnyDetector detector, const ActivePipelineOptions& options,
+                 const SessionId& session, const Clock& clock, MetricsRegistry& metrics);
 
   // The event to send for this frame, or null. Nobody is touched while `sending` is false; contacts that were being
   // sent end. Valid until the next call.
@@ -35,16 +42,28 @@ class ActivePipeline {
   const TouchEvent* process_nothing(const BodyMap& map, bool sending);
 
   [[nodiscard]] const ContactStates& contacts() const noexcept { return *contacts_; }
+  [[nodiscard]] const ScreenSize& screen() const noexcept { return screen_; }
+  // Of the newest picture.
+  [[nodiscard]] FrameVerdict verdict() const noexcept { return verdict_; }
+  // False: the detector learns how the rig looks with nobody there; until then no finger touches.
+  [[nodiscard]] bool knows_background() const noexcept;
+  // While the camera is `moved`, no finger touches.
+  [[nodiscard]] DriftState camera_drift() const noexcept { return camera_watch_.state(); }
   [[nodiscard]] const NobodyTouched& nobody_touched() const noexcept { return nobody_; }
 
  private:
-  const TouchEvent* report(const ScreenPoints& points, const BodyMap& map, bool sending, Timestamp frame_time);
+  void count(const FrameFindings& findings);
+  const TouchEvent* report(const FingerObservations& fingers, Scene scene, const BodyMap& map, bool sending,
+                           Timestamp frame_time);
 
   ImageSize image_;
   ScreenSize screen_;
-  TouchModel model_;
-  ThesisDetector detector_;
+  UprightPicture upright_;
+  CameraWatch camera_watch_;
+  FrameCheck frame_check_;
+  AnyDetector detector_;
   ContactTracker tracker_;
+  GestureRecogniser gestures_;
   TouchEventBuilder builder_;
   Duration max_map_age_;
   const Clock& clock_;
@@ -53,10 +72,16 @@ class ActivePipeline {
   ContactStates none_;
   const ContactStates* contacts_ = &none_;
   NobodyTouched nobody_;
+  FrameVerdict verdict_ = FrameVerdict::good;
+  bool light_settles_ = false;
   Counter& frames_;
-  Counter& frames_unfit_;
+  std::array<Counter*, 6> frames_by_verdict_;
+  Counter& frames_duplicate_;
+  Counter& light_changes_;
   Counter& fingers_off_screen_;
+  Counter& background_relearned_;
   Counter& touches_seen_;
+  LatencyHistogram& check_latency_;
   LatencyHistogram& finger_latency_;
   LatencyHistogram& touch_latency_;
   LatencyHistogram& box_latency_;

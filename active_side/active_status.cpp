@@ -19,6 +19,7 @@ Json touch_json(const SentTouch& touch) {
           {"frame", touch.frame_sequence},
           {"contact", contact.id},
           {"phase", name_of(contact.phase)},
+          {"gesture", name_of(contact.gesture)},
           {"box", contact.box},
           {"columns", contact.grid.columns},
           {"rows", contact.grid.rows},
@@ -41,6 +42,27 @@ Json felt_json(const Felt& felt) {
           {"box", felt.box},
           {"outcome", name_of(felt.outcome)},
           {"actuators", actuators}};
+}
+
+// Why the camera's pictures are not looked at; torn ones are single ones, which are only counted.
+Json picture_problem(FrameVerdict verdict) {
+  switch (verdict) {
+    case FrameVerdict::good:
+    case FrameVerdict::torn:
+      return {};
+    case FrameVerdict::other_size:
+      return problem_json("the camera's pictures have another size than those it was calibrated with",
+                          "set [camera] width_px and height_px as they were, or calibrate again");
+    case FrameVerdict::blank:
+      return problem_json("the camera sees nothing but black, white or one colour",
+                          "uncover it, turn on a light, or run `telehug-active camera tune`");
+    case FrameVerdict::frozen:
+      return problem_json("the camera delivers the same picture again and again", "unplug it and plug it in again");
+    case FrameVerdict::turned:
+      return problem_json("the camera's picture is upside down or mirrored",
+                          "turn it back as it was, or calibrate again");
+  }
+  return {};
 }
 
 }  // namespace
@@ -75,6 +97,18 @@ Json ActiveDaemon::problems(const TouchThreadState& state, const FaceState& face
         problem_json("the other side is not ready: " + told->reason, "see `telehug status` on the other PC"));
   }
   if (state.camera_lost) list.push_back(problem_json(state.camera_problem, "plug the camera in, or correct [camera]"));
+  if (state.camera_drift == DriftState::moved || state.camera_drift == DriftState::unseen) {
+    list.push_back(problem_json(drift_text(state.camera_drift), "run `telehug-active calibrate`"));
+  }
+  if (state.camera_open && !state.knows_background) {
+    list.push_back(problem_json("telehug learns how bezel and desk look with nobody there; no touch begins meanwhile",
+                                "keep your hands away from the screen for a second"));
+  }
+  if (const Json picture = picture_problem(state.picture); !picture.is_null()) list.push_back(picture);
+  for (const LocalTouchState& output : local_touch_.states()) {
+    if (output.problem.empty()) continue;
+    list.push_back(problem_json(output.problem, "or turn it off in [local_touch]; it is tried again by itself"));
+  }
   if (state.recording_over) list.push_back(problem_json("the recording is over", "start again to replay it"));
   if (!face.problem.empty()) {
     list.push_back(problem_json(face.problem, "touches are not sent until a face is found; check [body_map] picture"));
@@ -90,7 +124,8 @@ Json ActiveDaemon::status() const {
   }
   const FaceState face = state.face ? state.face->state() : FaceState{};
   const bool stopped = stop_.stopped() || peer_.stopped_by_peer();
-  const bool fault = state.camera_lost || !state.face || !face.problem.empty();
+  const bool fault = state.camera_lost || state.camera_drift == DriftState::moved ||
+                     !picture_problem(state.picture).is_null() || !state.face || !face.problem.empty();
 
   Json counters = metrics_.counters_json();
   counters["touches_without_face"] = state.nobody.no_face;
@@ -100,7 +135,7 @@ Json ActiveDaemon::status() const {
   counters["messages_dropped"] =
       peer_.dropped() + felt_reader_->counters().malformed + felt_reader_->counters().invalid;
 
-  const char* open_why = state.camera_open      ? "a peer is connected"
+  const char* open_why = state.camera_open      ? state.peer.alive ? "a peer is connected" : "this PC uses the touches"
                          : state.recording_over ? "the recording is over"
                          : state.camera_lost    ? "it can't be used"
                          : stopped              ? "stopped"
@@ -119,12 +154,28 @@ Json ActiveDaemon::status() const {
                  {"camera", {{"name", camera_name_}, {"open", state.camera_open}, {"why", open_why}}},
                  {"screen", {{"name", face.screen}, {"open", face.open}}},
                  {"face", {{"found", face.map.version != 0}, {"map_version", face.map.version}}},
-                 {"detector", {{"name", "thesis"}, {"model", state.model}}},
+                 {"detector", {{"name", state.detector}, {"model", state.model}}},
                  {"counters", counters},
                  {"latency_ms", metrics_.latencies_json()}};
+  if (!state.camera_setup.empty()) answer["camera"]["setup"] = state.camera_setup;
   if (face.map.version != 0) answer["face"]["rows"] = face.map.shape.rows;
+  for (const LocalTouchState& output : local_touch_.states())
+    answer["local_touch"][output.name] = output.open ? "on" : output.problem.empty() ? "waits for the camera" : "fails";
   if (state.last_touch) answer["last_touch"] = touch_json(*state.last_touch);
   return answer;
+}
+
+void ActiveDaemon::tell_local_touch() {
+  std::string works;
+  std::string problems;
+  for (const LocalTouchState& output : local_touch_.states()) {
+    if (output.open) works += (works.empty() ? "" : ", ") + output.name;
+    if (!output.problem.empty()) problems += (problems.empty() ? "" : "; ") + output.problem;
+  }
+  if (!works.empty() || !problems.empty()) {
+    say_local_touch_.say(problems.empty() ? spdlog::level::info : spdlog::level::warn,
+                         problems.empty() ? "touches are used on this PC: " + works : problems);
+  }
 }
 
 void ActiveDaemon::tell_watchers() {

@@ -12,6 +12,7 @@ namespace {
 constexpr const char* examples = R"(
 Examples:
   telehug-active calibrate --width-mm 380 --height-mm 300
+  telehug-active camera tune
   telehug-active run --source webcam --set body_map.picture=chat.jpg
   telehug-active eval touch RIG_DIR --out touches.csv --detector thesis --model thesis
   telehug-active show-boxes chat.jpg --out boxes.png
@@ -32,6 +33,7 @@ int main(int argc, char** argv) {
   app.require_subcommand(1);
   telehug::add_run(app, result);
   telehug::add_calibrate(app, result);
+  telehug::add_camera(app, result);
   telehug::add_record(app, result);
   telehug::add_eval(app, result);
   telehug::add_show_boxes(app, result);

@@ -4,12 +4,14 @@
 #include <fmt/core.h>
 
 #include <cmath>
+#include <optional>
 #include <stdexcept>
 
 #include "body_map/haar_face_finder.hpp"
 #include "body_map/picture_grabber.hpp"
 #include "calibration/calibration_file.hpp"
 #include "config/places.hpp"
+#include "make_detector.hpp"
 
 namespace telehug {
 namespace {
@@ -46,6 +48,8 @@ Result<std::unique_ptr<Rig>> make_rig(const ActiveConfig& config, const SessionI
   if (!finder) return finder.error();
 
   ActivePipelineOptions options;
+  const bool real_camera = config.camera.source.starts_with("webcam");
+  if (!real_camera) options.frames.frozen_after = 0;
   options.tracker.up_after = std::chrono::milliseconds(config.touch.up_after_ms);
   options.max_map_age = std::chrono::milliseconds(config.body_map.max_age_ms);
   BodyMapStepConfig step;
@@ -56,8 +60,21 @@ Result<std::unique_ptr<Rig>> make_rig(const ActiveConfig& config, const SessionI
   auto face = std::make_shared<FaceWorker>(std::make_unique<PictureGrabber>(grabber, clock), *std::move(finder), step,
                                            config.body_map.rate_hz, clock, metrics);
   try {
-    return std::make_unique<Rig>(Rig{ActivePipeline(*calibration, options, session, clock, metrics), std::move(face),
-                                     calibration->model_name()});
+    std::optional<BorderStrip> background;
+    std::string note;
+    if (config.touch.detector != "thesis") {
+      auto kept = read_background_of(path, *calibration);
+      if (kept) {
+        background = *std::move(kept);
+      } else {
+        note = fmt::format("{}: the background is learnt from the first pictures in which nothing moves",
+                           kept.error().message);
+      }
+    }
+    AnyDetector detector = make_detector(config.touch.detector, *calibration, background);
+    return std::make_unique<Rig>(
+        Rig{ActivePipeline(*calibration, std::move(detector), options, session, clock, metrics), std::move(face),
+            config.touch.detector, calibration->model_name(), note});
   } catch (const std::invalid_argument& problem) {
     return Error{fmt::format("{}: {}; calibrate again", path.string(), problem.what())};
   }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <string>
 
 #include "active_pipeline.hpp"
 #include "common/result.hpp"
@@ -14,7 +15,9 @@ namespace telehug {
 struct Rig {
   ActivePipeline pipeline;
   std::shared_ptr<FaceWorker> face;
-  const char* model;  // of the calibration: "thesis" or "default"
+  std::string detector;  // "thesis" or "default"
+  std::string model;     // of the calibration, likewise
+  std::string note;      // what works, but could be better; may be empty
 };
 
 // The error says what is wrong with the calibration, with the configuration for it, or with the face finder, and what

@@ -20,6 +20,11 @@ inline constexpr std::size_t max_felt_actuators = 16;
 
 enum class Phase : std::uint8_t { down = 0, move = 1, up = 2 };
 
+// How a contact touches. It is `none` until that is certain, and may then become another (a hold that begins to move is
+// a stroke); with `up` it is what the contact was: exactly one.
+enum class Gesture : std::uint8_t { none = 0, tap = 1, hold = 2, stroke = 3, pat = 4, hug = 5 };
+inline constexpr std::uint8_t gesture_count = 6;
+
 // Shape of the grid of boxes that a box number refers to: `columns` boxes a row, numbered from 1, row by row, left to
 // right as seen on the screen.
 struct GridShape {
@@ -38,6 +43,7 @@ struct Contact {
   ScreenPoint screen;
   double speed_mm_s = 0;
   double strength = 1;  // 0..1
+  Gesture gesture = Gesture::none;
 };
 
 // A down or an up that happened lately, repeated in the following events so that a lost sample loses nothing.

@@ -12,6 +12,11 @@ namespace telehug {
   return names[static_cast<std::size_t>(phase)];
 }
 
+[[nodiscard]] constexpr const char* name_of(Gesture gesture) noexcept {
+  constexpr const char* names[gesture_count] = {"none", "tap", "hold", "stroke", "pat", "hug"};
+  return names[static_cast<std::size_t>(gesture)];
+}
+
 [[nodiscard]] constexpr const char* name_of(FeltOutcome outcome) noexcept {
   constexpr const char* names[felt_outcome_count] = {"driven", "uncovered",     "stopped",
                                                      "stale",  "jacket absent", "limited"};

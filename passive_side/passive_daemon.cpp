@@ -96,6 +96,7 @@ void PassiveDaemon::drive_loop() {
         own_state_.last_felt = felt;
         felt_.push(felt);
       }
+      own_state_.last_gesture = pipeline_.last_gesture();
       total_latency_.record(clock_.now() - arrival->time);
     }
     const Timestamp now = clock_.now();

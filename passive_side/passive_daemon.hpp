@@ -39,6 +39,7 @@ struct DriveThreadState {
   std::string stop_reason;
   std::vector<std::uint8_t> running;  // ids of actuators
   std::optional<Felt> last_felt;
+  Gesture last_gesture = Gesture::none;
 };
 
 // Which actuators run, whenever that changes, for those who watch.

@@ -34,6 +34,7 @@ const FeltAnswers& PassivePipeline::process(const TouchEvent& event, Timestamp r
   }
   if (touch != nullptr && stale) refuse(FeltOutcome::stale, *touch, received);
   if (touch != nullptr && !stale) {
+    note_gesture(*touch);
     plan_ = touch_to_drives(event, {touch->transitions.data(), touch->transitions.size()}, profile_, plan_, ordered,
                             drive_duration_);
     const Timestamp planned = clock_.now();
@@ -45,6 +46,13 @@ const FeltAnswers& PassivePipeline::process(const TouchEvent& event, Timestamp r
   order_latency_.record(ordered - received);
   tell_counters();
   return answers_;
+}
+
+void PassivePipeline::note_gesture(const OrderedTouch& touch) {
+  for (const Transition& transition : touch.transitions)
+    last_gesture_ = transition.contact.gesture;
+  for (const Contact& contact : touch.event->contacts)
+    last_gesture_ = contact.gesture;
 }
 
 void PassivePipeline::answer(const SafetyVerdict& verdict, const TouchEvent& event, Timestamp received) {

@@ -34,7 +34,11 @@ class PassivePipeline {
     staleness_.observe(heartbeat.session, heartbeat.sent_time_ns, now);
   }
 
+  // What the newest contact of the last event that could be felt is, or was.
+  [[nodiscard]] Gesture last_gesture() const noexcept { return last_gesture_; }
+
  private:
+  void note_gesture(const OrderedTouch& touch);
   void answer(const SafetyVerdict& verdict, const TouchEvent& event, Timestamp received);
   void refuse(FeltOutcome outcome, const OrderedTouch& touch, Timestamp received);
   [[nodiscard]] bool is_news(const ContactAnswer& answer, FeltOutcome outcome);
@@ -49,6 +53,7 @@ class PassivePipeline {
   Staleness staleness_;
   JacketPlan plan_;
   FeltAnswers answers_;
+  Gesture last_gesture_ = Gesture::none;
 
   struct Known {
     std::uint32_t contact = 0;

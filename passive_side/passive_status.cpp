@@ -112,7 +112,10 @@ Json PassiveDaemon::status() const {
                    {"running", id_list(now.running)}}},
                  {"counters", counters},
                  {"latency_ms", metrics_.latencies_json()}};
-  if (now.last_felt) answer["last_touch"] = felt_json(*now.last_felt);
+  if (now.last_felt) {
+    answer["last_touch"] = felt_json(*now.last_felt);
+    answer["last_touch"]["gesture"] = name_of(now.last_gesture);
+  }
   return answer;
 }
 

@@ -39,4 +39,20 @@ BorderLine border_line(const RigCamera& camera, const ScreenSize& screen) {
   return {n > 0 ? (sv - slope * su) / n : 0, slope};
 }
 
+bool is_upside_down(const Calibration& calibration) noexcept {
+  const auto* const rig = std::get_if<RigCalibration>(&calibration.solved);
+  return rig != nullptr && rig->solution.model.camera.orientation().top_bottom_exchanged;
+}
+
+Calibration upright(const Calibration& calibration) {
+  Calibration turned = calibration;
+  if (!is_upside_down(calibration)) return turned;
+  RigCamera& camera = std::get<RigCalibration>(turned.solved).solution.model.camera;
+  PictureOrientation orientation = camera.orientation();
+  orientation.top_bottom_exchanged = false;
+  camera = RigCamera(camera.parameters(), camera.image(), orientation);
+  turned.border = {calibration.image.height_px - 1 - calibration.border.v0_px, -calibration.border.slope};
+  return turned;
+}
+
 }  // namespace telehug

@@ -44,4 +44,11 @@ struct Calibration {
 // The straight line nearest to the image of the screen's bottom edge, which a lens bends a little.
 [[nodiscard]] BorderLine border_line(const RigCamera& camera, const ScreenSize& screen);
 
+// The camera delivers its pictures with top and bottom exchanged: the screen lies above its border in them.
+[[nodiscard]] bool is_upside_down(const Calibration& calibration) noexcept;
+
+// The same calibration for pictures that were flipped about their middle row, if they have to be: the screen lies below
+// its border in them.
+[[nodiscard]] Calibration upright(const Calibration& calibration);
+
 }  // namespace telehug

@@ -66,8 +66,8 @@ std::optional<std::pair<std::size_t, std::size_t>> exchanged_touches(const RigCa
     for (std::size_t b = a + 1; b < calibration.observations.touches.size(); ++b) {
       RigObservations exchanged = calibration.observations;
       std::swap(exchanged.touches[a].screen, exchanged.touches[b].screen);
-      const auto solution = solve_rig(exchanged);
-      if (!solution || solution->bad_touch || solution->cost >= least) continue;
+      const auto solution = solve_rig(exchanged, {std::nullopt, std::nullopt, false});
+      if (!solution || solution->cost >= least) continue;
       least = solution->cost;
       best = {a, b};
     }

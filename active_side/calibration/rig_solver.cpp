@@ -206,7 +206,7 @@ Result<RigSolution> solve_rig(const RigObservations& observations, const RigSolv
   if (!std::isfinite(best.cost)) {
     return Error{"no camera on top of this screen sees the touches like this: check the screen's size, touch again"};
   }
-  const auto bad = find_bad_touch(observations, priors, best);
+  const auto bad = options.leave_out_bad_touch ? find_bad_touch(observations, priors, best) : std::nullopt;
   const RigLeastSquares used(bad ? without(observations, bad->touch) : observations, priors, best.orientation);
   RigSolution solution = describe(observations, used, bad ? bad->fit.parameters : best.parameters, best.orientation);
   if (bad) solution.bad_touch = bad->touch;

@@ -36,6 +36,7 @@ struct RigSolution {
 struct RigSolverOptions {
   std::optional<RigPriors> priors;                // else usual_rigs()
   std::optional<PictureOrientation> orientation;  // else detected
+  bool leave_out_bad_touch = true;                // false: all touches count, as far as the robust loss lets them
 };
 
 [[nodiscard]] RigModel make_rig_model(const RigParameters& parameters, ImageSize image, PictureOrientation orientation);

@@ -41,6 +41,9 @@ class FrameSource {
   // What status and calibration files call this source: "webcam /dev/v4l/by-id/...", "recording DIR", "virtual".
   [[nodiscard]] virtual std::string name() const = 0;
 
+  // What was set for these pictures and what of it did not work, for status; empty: nothing was changed.
+  [[nodiscard]] virtual std::string setup() const { return {}; }
+
   // Size of the pictures; 0x0 until open.
   [[nodiscard]] virtual ImageSize size() const = 0;
 };

@@ -16,7 +16,8 @@ namespace {
 
 std::unique_ptr<FrameSource> webcam(std::string device, const CaptureSettings& settings, const Clock& clock) {
   if (device.empty()) device = settings.device.empty() ? first_webcam_device() : settings.device;
-  return std::make_unique<Webcam>(WebcamSettings{device, settings.webcam_size, settings.webcam_fps}, clock);
+  return std::make_unique<Webcam>(
+      WebcamSettings{device, settings.webcam_size, settings.webcam_fps, settings.webcam_setup}, clock);
 }
 
 std::unique_ptr<FrameSource> recording(std::string_view place, const CaptureSettings& settings, const Clock& clock) {

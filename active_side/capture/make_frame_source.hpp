@@ -7,6 +7,7 @@
 #include <string>
 #include <string_view>
 
+#include "capture/camera_setup.hpp"
 #include "capture/frame_source.hpp"
 #include "capture/virtual_rig/settings.hpp"
 
@@ -17,6 +18,7 @@ struct CaptureSettings {
   std::string device;
   ImageSize webcam_size{1280, 720};  // the nearest size that the webcam offers is taken
   double webcam_fps = 30;
+  CameraSetupSettings webcam_setup;
 
   // Recording and virtual rig.
   bool real_time = true;           // false: as fast as pictures are read

@@ -44,7 +44,7 @@ bool says_device_is_gone(int code) {
 }  // namespace
 
 Webcam::Webcam(WebcamSettings settings, const Clock& clock, V4l2Calls& calls)
-    : settings_(std::move(settings)), clock_(clock), calls_(calls) {}
+    : settings_(std::move(settings)), clock_(clock), calls_(calls), setup_(settings_.setup, calls) {}
 
 Webcam::~Webcam() {
   stop();
@@ -74,11 +74,13 @@ Status Webcam::start() {
   for (const auto step : {&Webcam::check_device, &Webcam::choose_format, &Webcam::map_buffers, &Webcam::start_stream}) {
     if (Status done = (this->*step)(); !done) return done;
   }
+  setup_.apply(settings_.device);
   return Done{};
 }
 
 void Webcam::stop() {
   if (!is_open()) return;
+  setup_.put_back();
   if (streaming_) {
     int type = V4L2_BUF_TYPE_VIDEO_CAPTURE;
     calls_.ioctl(fd_, VIDIOC_STREAMOFF, &type);

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "capture/camera_setup.hpp"
 #include "capture/frame_source.hpp"
 #include "capture/pace.hpp"
 #include "capture/v4l2_calls.hpp"
@@ -17,6 +18,7 @@ struct WebcamSettings {
   std::string device;  // /dev/v4l/by-id/... (stays the same camera) or /dev/videoN
   ImageSize size{1280, 720};
   double fps = 30;
+  CameraSetupSettings setup = {};  // applied whenever it is opened, put back before it is closed
 };
 
 // A V4L2 webcam that delivers MJPEG or YUYV. Of several waiting pictures the newest is read. Frames carry the kernel's
@@ -36,6 +38,7 @@ class Webcam final : public FrameSource {
   ReadOutcome read(Frame& frame, Duration timeout) override;
   [[nodiscard]] std::string last_error() const override { return last_error_; }
   [[nodiscard]] std::string name() const override { return "webcam " + settings_.device; }
+  [[nodiscard]] std::string setup() const override { return setup_.summary(); }
   [[nodiscard]] ImageSize size() const override { return size_; }
 
   // What the camera delivers, for people: "1280x720 MJPG, 30 fps", and what was asked for if that is something else.
@@ -78,6 +81,7 @@ class Webcam final : public FrameSource {
   WebcamSettings settings_;
   const Clock& clock_;
   V4l2Calls& calls_;
+  CameraSetup setup_;
   JpegDecoder jpeg_;
   RetryGate retry_;
   int fd_ = -1;

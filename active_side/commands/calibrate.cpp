@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cmath>
 #include <filesystem>
+#include <iostream>
 #include <memory>
 
 #include "calibration/calibration_file.hpp"
@@ -16,7 +17,11 @@
 #include "commands/config_options.hpp"
 #include "config/locator.hpp"
 #include "config/places.hpp"
+#include "eval/empty_rig.hpp"
 #include "eval/rig_calibration.hpp"
+#include "finger/background_file.hpp"
+#include "make_detector.hpp"
+#include "upright_picture.hpp"
 
 namespace telehug {
 namespace {
@@ -62,15 +67,22 @@ class ScratchFolder {
   std::filesystem::path path_;
 };
 
-Result<Calibration> from_recording(const std::filesystem::path& folder, const std::string& model,
-                                   const std::vector<int>& frames) {
+Result<CalibratedRig> from_recording(const std::filesystem::path& folder, const std::string& model,
+                                     const std::vector<int>& frames) {
   const auto rig = open_rig_directory(folder);
   if (!rig) return rig.error();
-  return calibrate_from_recording(*rig, model, frames, utc_now());
+  auto calibration = calibrate_from_recording(*rig, model, frames, utc_now());
+  if (!calibration) return calibration.error();
+  auto empty = picture_of_empty_rig(*rig);
+  if (!empty) {
+    fmt::print("{}\n", empty.error().message);
+    return CalibratedRig{*std::move(calibration), std::nullopt};
+  }
+  return CalibratedRig{*std::move(calibration), *std::move(empty)};
 }
 
-Result<Calibration> from_virtual_rig(const std::string& source, const VirtualRigSettings& usual,
-                                     const std::string& model, const std::vector<int>& frames) {
+Result<CalibratedRig> from_virtual_rig(const std::string& source, const VirtualRigSettings& usual,
+                                       const std::string& model, const std::vector<int>& frames) {
   const ScratchFolder scratch;
   // The default model's: with those far to the left and right. Rendering more takes its time and gains little.
   const int all = model == "thesis" ? 2 : 6;
@@ -81,12 +93,12 @@ Result<Calibration> from_virtual_rig(const std::string& source, const VirtualRig
   const Status exported = seed ? export_rig_directory(random_rig(*seed), scratch.path(), calibration_only)
                                : export_rig_directory(usual, scratch.path(), calibration_only);
   if (!exported) return exported.error();
-  auto calibration = from_recording(scratch.path(), model, frames);
-  if (calibration) calibration->camera = source;
-  return calibration;
+  auto calibrated = from_recording(scratch.path(), model, frames);
+  if (calibrated) calibrated->calibration.camera = source;
+  return calibrated;
 }
 
-Result<Calibration> calibrate(const Options& options, const ActiveConfig& config) {
+Result<CalibratedRig> calibrate(const Options& options, const ActiveConfig& config) {
   const std::string model = options.model.empty() ? config.touch.model : options.model;
   const std::string spec = options.source.empty() ? config.camera.source : options.source;
   const auto source = parse_camera_source(spec);
@@ -113,7 +125,7 @@ Result<Calibration> calibrate(const Options& options, const ActiveConfig& config
   const SteadyClock clock;
   auto camera = make_frame_source(spec, capture, clock);
   if (!camera) return camera.error();
-  return calibrate_by_hand(**camera, by_hand, utc_now());
+  return calibrate_by_hand(**camera, by_hand, utc_now(), std::cin, std::cout);
 }
 
 double largest_error_mm(const RigSolution& solution) {
@@ -152,16 +164,33 @@ Status judge(const Calibration& calibration) {
   return Error{fmt::format("the calibration is not saved: {}", fmt::join(verdict.faults, "; "))};
 }
 
+// The background first: a daemon that runs reads both when the calibration has changed.
+Status write(const std::filesystem::path& path, const CalibratedRig& rig) {
+  std::error_code problem;
+  const std::filesystem::path background = background_file(path);
+  if (path.has_parent_path()) std::filesystem::create_directories(path.parent_path(), problem);
+  if (!rig.empty) {
+    std::filesystem::remove(background, problem);
+    fmt::print("there is no picture without a hand: `run` learns the background from its first pictures\n");
+    return write_calibration(path, rig.calibration);
+  }
+  UprightPicture turned(rig.calibration.image, is_upside_down(rig.calibration));
+  const cv::Mat& empty = turned.of(*rig.empty);
+  if (const Status written = write_background(background, empty, strip_layout(rig.calibration)); !written) {
+    return written;
+  }
+  return write_calibration(path, rig.calibration);
+}
+
 ExitCode run(const Options& options) {
   const auto config = load_config(options.config);
   if (!config) return fail(ExitCode::config, config.error());
-  const auto calibration = calibrate(options, *config);
-  if (!calibration) return fail(ExitCode::device, calibration.error());
+  const auto calibrated = calibrate(options, *config);
+  if (!calibrated) return fail(ExitCode::device, calibrated.error());
+  const Calibration* const calibration = &calibrated->calibration;
   if (const Status worth = judge(*calibration); !worth) return fail(ExitCode::device, worth.error());
   const std::filesystem::path out = options.out.empty() ? rig_file(config->rig) : std::filesystem::path(options.out);
-  if (const Status written = write_calibration(out, *calibration); !written) {
-    return fail(ExitCode::device, written.error());
-  }
+  if (const Status written = write(out, *calibrated); !written) return fail(ExitCode::device, written.error());
   fmt::print("calibrated: {}, screen {:.0f} x {:.0f} mm, camera {:.0f} mm {} the screen's top\nwritten to {}\n",
              calibration->camera, calibration->screen.width_mm, calibration->screen.height_mm,
              std::abs(calibration->camera_below_top_mm()), calibration->camera_below_top_mm() < 0 ? "above" : "below",

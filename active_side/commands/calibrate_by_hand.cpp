@@ -7,13 +7,16 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
-#include <iostream>
+#include <istream>
 #include <opencv2/imgproc.hpp>
+#include <ostream>
+#include <string>
 #include <utility>
 
 #include "calibration/border_choice.hpp"
 #include "calibration/screen_border.hpp"
 #include "finger/thesis_detector.hpp"
+#include "pictures/median_picture.hpp"
 #include "pictures/picture_file.hpp"
 #include "touch/screen_points.hpp"
 
@@ -22,6 +25,8 @@ namespace {
 
 constexpr int frames_measured = 15;
 constexpr int least_frames_with_finger = 8;
+constexpr int frames_of_a_second = 30;
+constexpr int frames_per_picture = 2;  // of those that are kept in memory
 constexpr const char* triangle_file = "telehug-triangle.png";
 constexpr const char* dots_file = "telehug-dots.png";
 constexpr double px_per_mm = 4;  // of the pictures, when the screen's pixels are not known
@@ -61,11 +66,10 @@ cv::Mat dots_picture(const ScreenSize& screen, const std::vector<ScreenPoint>& p
   return picture;
 }
 
-Status ask(const std::string& what) {
-  fmt::print("{}\nThen press Enter. ", what);
-  (void)std::fflush(stdout);
+Status ask(const std::string& what, std::istream& answers, std::ostream& instructions) {
+  instructions << what << "\nThen press Enter. " << std::flush;
   std::string line;
-  if (std::getline(std::cin, line)) return Done{};
+  if (std::getline(answers, line)) return Done{};
   return Error{"calibrating the webcam asks for touches: run it in a terminal"};
 }
 
@@ -84,6 +88,17 @@ Status read_frames(FrameSource& camera, int count, Use use) {
     }
   }
   return Done{};
+}
+
+// What the camera sees in a second, without what moves or flickers.
+Result<cv::Mat> picture_of_a_second(FrameSource& camera) {
+  std::vector<cv::Mat> pictures;
+  int taken = 0;
+  const Status read = read_frames(camera, frames_of_a_second, [&](const cv::Mat& bgr) {
+    if (taken++ % frames_per_picture == 0) pictures.push_back(bgr.clone());
+  });
+  if (!read) return read.error();
+  return median_picture(pictures);
 }
 
 double median(std::vector<double> values) {
@@ -150,7 +165,8 @@ std::vector<ScreenPoint> default_points(const ScreenSize& screen) {
   return points;
 }
 
-Result<Calibration> calibrate_by_hand(FrameSource& camera, const HandCalibration& wanted, const std::string& date) {
+Result<CalibratedRig> calibrate_by_hand(FrameSource& camera, const HandCalibration& wanted, const std::string& date,
+                                        std::istream& answers, std::ostream& instructions) {
   const ScreenSize& screen = wanted.screen;
   const bool thesis = wanted.model == "thesis";
   if (!(screen.width_mm > 0) || !(screen.height_mm > 0)) {
@@ -163,16 +179,17 @@ Result<Calibration> calibrate_by_hand(FrameSource& camera, const HandCalibration
   if (const Status written = write_png(triangle_file, triangle_picture(screen)); !written) return written.error();
   if (const Status written = write_png(dots_file, dots_picture(screen, points)); !written) return written.error();
 
-  if (auto ready = ask(fmt::format("Show {} on the whole screen, with any picture viewer, and keep your hands away.",
-                                   triangle_file));
+  if (auto ready =
+          ask(fmt::format("Show {} on the whole screen, with any picture viewer. Take your hands, and all that "
+                          "does not stay there, away from the screen and the desk before it.",
+                          triangle_file),
+              answers, instructions);
       !ready) {
     return ready.error();
   }
-  cv::Mat picture;
-  if (auto read = read_frames(camera, frames_measured, [&](const cv::Mat& bgr) { bgr.copyTo(picture); }); !read) {
-    return read.error();
-  }
-  const auto border = find_screen_border(picture, BorderChoice::triangle);
+  const auto empty = picture_of_a_second(camera);
+  if (!empty) return empty.error();
+  const auto border = find_screen_border(*empty, BorderChoice::triangle);
   if (!border) return border.error();
 
   std::vector<HandTouch> touches;
@@ -180,7 +197,7 @@ Result<Calibration> calibrate_by_hand(FrameSource& camera, const HandCalibration
     const std::string what =
         i == 0 ? fmt::format("Show {} on the whole screen and lay a finger on dot 1; leave it there.", dots_file)
                : fmt::format("Now lay it on dot {}; leave it there.", i + 1);
-    if (auto ready = ask(what); !ready) return ready.error();
+    if (auto ready = ask(what, answers, instructions); !ready) return ready.error();
     auto touch = measure(camera, border->line, points[i]);
     if (!touch) return Error{fmt::format("touch {}: {}", i + 1, touch.error().message)};
     touches.push_back(*touch);
@@ -188,17 +205,17 @@ Result<Calibration> calibrate_by_hand(FrameSource& camera, const HandCalibration
   if (thesis) {
     const auto model = ThesisTouchModel::solve(screen, touches[0].thesis, touches[1].thesis);
     if (!model) return model.error();
-    return Calibration{camera.name(), date,         camera.size(),
-                       screen,        border->line, ThesisCalibration{{touches[0].thesis, touches[1].thesis}, *model}};
+    const ThesisCalibration solved{{touches[0].thesis, touches[1].thesis}, *model};
+    return CalibratedRig{{camera.name(), date, camera.size(), screen, border->line, solved}, *empty};
   }
   RigObservations seen{screen, camera.size(), {}, {}, {}};
   for (std::size_t i = 0; i < points.size(); ++i)
     seen.touches.push_back({points[i], touches[i].tip, thesis_tip_sigma_px, thesis_tip_sigma_px});
   if (const auto mark = triangle_mark(*border, screen)) seen.marks.push_back(*mark);
-  auto solved = solve_with_border(seen, find_border_candidates(picture, border->line));
+  auto solved = solve_with_border(seen, find_border_candidates(*empty, border->line));
   if (!solved) return solved.error();
   const BorderLine edge = border_line(solved->calibration.solution.model.camera, screen);
-  return Calibration{camera.name(), date, camera.size(), screen, edge, std::move(solved->calibration)};
+  return CalibratedRig{{camera.name(), date, camera.size(), screen, edge, std::move(solved->calibration)}, *empty};
 }
 
 }  // namespace telehug

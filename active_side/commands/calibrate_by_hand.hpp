@@ -10,6 +10,11 @@
 
 namespace telehug {
 
+struct CalibratedRig {
+  Calibration calibration;
+  std::optional<cv::Mat> empty;  // how the camera sees the rig with nobody there
+};
+
 struct HandCalibration {
   ScreenSize screen;                // mm; pixels, if known
   std::string model = "default";    // or "thesis"
@@ -26,8 +31,10 @@ Result<std::vector<ScreenPoint>> parse_points(const std::vector<std::string>& te
 // Five that lie far to the left and right, where the camera sees them.
 [[nodiscard]] std::vector<ScreenPoint> default_points(const ScreenSize& screen);
 
-// Leads a person through it on the terminal: two pictures to show on the whole screen (written to the current folder),
-// hands away for the border, then one touch of each point.
-Result<Calibration> calibrate_by_hand(FrameSource& camera, const HandCalibration& wanted, const std::string& date);
+// Leads a person through it: `instructions` get what to do, and a line from `answers` says that it is done. Two
+// pictures to show on the whole screen (written to the current folder), hands away for the border and the background,
+// then one touch of each point.
+Result<CalibratedRig> calibrate_by_hand(FrameSource& camera, const HandCalibration& wanted, const std::string& date,
+                                        std::istream& answers, std::ostream& instructions);
 
 }  // namespace telehug

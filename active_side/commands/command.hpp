@@ -21,6 +21,7 @@ namespace telehug {
 void add_run(CLI::App& app, ExitCode& result);
 void add_calibrate(CLI::App& app, ExitCode& result);
 void add_record(CLI::App& app, ExitCode& result);
+void add_camera(CLI::App& app, ExitCode& result);
 void add_eval(CLI::App& app, ExitCode& result);
 void add_show_boxes(CLI::App& app, ExitCode& result);
 

@@ -3,6 +3,8 @@
 
 #include <CLI/CLI.hpp>
 
+#include "config/places.hpp"
+
 namespace telehug {
 
 void add_config_options(CLI::App& command, ConfigOptions& options) {
@@ -25,6 +27,10 @@ CaptureSettings capture_settings(const ActiveConfig& config) {
   settings.device = config.camera.device;
   settings.webcam_size = {config.camera.width_px, config.camera.height_px};
   settings.webcam_fps = config.camera.fps;
+  settings.webcam_setup = {config.camera.preset == "auto"     ? CameraPreset::tuned
+                           : config.camera.preset == "thesis" ? CameraPreset::fixed
+                                                              : CameraPreset::keep,
+                           config.camera.power_line_hz, tuned_camera_file(config.rig), camera_before_file(config.rig)};
   return settings;
 }
 

@@ -25,6 +25,12 @@ ExitCode run(const Options& options) {
   const SteadyClock clock;
   CaptureSettings capture = capture_settings(*config);
   capture.loop = options.loop;
+  // The camera may not be needed for long: what a killed program left changed is put back now.
+  if (const auto put_back = put_back_camera(capture.webcam_setup.before_file, kernel_v4l2_calls()); !put_back) {
+    spdlog::warn("settings of the camera are not put back: {}", put_back.error().message);
+  } else if (*put_back > 0) {
+    spdlog::info("put back {} settings of the camera that an earlier run had left", *put_back);
+  }
   auto camera = make_frame_source(config->camera.source, capture, clock);
   if (!camera) return fail(ExitCode::config, camera.error());
   try {

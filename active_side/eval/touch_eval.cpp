@@ -17,6 +17,7 @@
 #include "eval/rig_calibration.hpp"
 #include "finger/any_detector.hpp"
 #include "pictures/picture_file.hpp"
+#include "touch/camera_foot.hpp"
 #include "touch/contact_tracker.hpp"
 #include "touch/screen_points.hpp"
 
@@ -30,27 +31,39 @@ Status check_choice(const char* option, const std::string& choice) {
   return Error{fmt::format("--{} {} is unknown; there are: thesis, default", option, choice)};
 }
 
+// Only the default detector with the default model can tell touching from hovering.
+TrackerOptions tracker_options(const Calibration& calibration, const AnyDetector& detector) {
+  const auto* const rig = std::get_if<RigCalibration>(&calibration.solved);
+  TrackerOptions options;
+  options.every_finger_touches = rig == nullptr || !std::holds_alternative<FingerDetector>(detector);
+  if (rig != nullptr) options.camera = camera_foot(rig->solution.model.camera, calibration.screen);
+  return options;
+}
+
 // Reads the pictures of a part in order and collects what is found in each.
 class Evaluation {
  public:
-  Evaluation(EvalTouchReport& report, AnyDetector detector) : report_(report), detector_(std::move(detector)) {}
+  Evaluation(EvalTouchReport& report, AnyDetector detector)
+      : report_(report), detector_(std::move(detector)), tracker_(tracker_options(report.calibration, detector_)) {}
 
   void run(const RigPart& part) {
     const bool is_recording = part.name == "sequence";
     for (std::size_t i = 0; i < part.frames.size(); ++i) {
-      const ScreenPoints points = points_in(part.frames[i]);
-      FoundTouches found{part.frames[i].name, {points.begin(), points.end()}};
+      const FingerObservations fingers = fingers_in(part.frames[i]);
+      FoundTouches found{part.frames[i].name, {}};
       if (is_recording) {
         const auto index = static_cast<Duration::rep>(i);
         const Timestamp time = part.times.empty() ? Timestamp{} + index * frame_interval : part.times[i];
-        found.points = tracked(points, time);
+        found.points = tracked(fingers, time);
+      } else {
+        found.points = touching(fingers);
       }
       report_.found.push_back(std::move(found));
     }
   }
 
  private:
-  ScreenPoints points_in(const RigFrame& frame) {
+  FingerObservations fingers_in(const RigFrame& frame) {
     const auto picture = read_picture(frame.picture);
     if (!picture) {
       report_.unreadable.push_back(picture.error().message);
@@ -66,13 +79,24 @@ class Evaluation {
     const auto touched =
         screen_points(detect(detector_, *picture), report_.calibration.model(), report_.calibration.screen, image);
     report_.dropped += touched.dropped;
-    return touched.points;
+    return touched.fingers;
   }
 
-  std::vector<ScreenPoint> tracked(const ScreenPoints& points, Timestamp time) {
+  [[nodiscard]] std::vector<ScreenPoint> touching(const FingerObservations& fingers) const {
     std::vector<ScreenPoint> places;
-    for (const ContactState& state : tracker_.update(points, time)) {
-      if (state.phase != Phase::up) places.push_back(state.screen);
+    for (const FingerObservation& finger : fingers) {
+      if (touches_alone(finger) && near_screen(finger.screen, report_.calibration.screen)) {
+        places.push_back(finger.screen);
+      }
+    }
+    return places;
+  }
+
+  std::vector<ScreenPoint> tracked(const FingerObservations& fingers, Timestamp time) {
+    std::vector<ScreenPoint> places;
+    for (const ContactState& state : tracker_.update(fingers, time)) {
+      const bool more_likely_touches = state.phase != Phase::up && state.touching >= 0.5;
+      if (more_likely_touches && near_screen(state.screen, report_.calibration.screen)) places.push_back(state.screen);
     }
     return places;
   }
@@ -87,7 +111,11 @@ Result<AnyDetector> make_detector(const std::string& choice, const Calibration& 
     if (choice == "thesis") return AnyDetector(ThesisDetector(calibration.border, calibration.image));
     const auto empty = picture_of_empty_rig(rig);
     if (!empty) return empty.error();
-    return AnyDetector(FingerDetector(border_curve(calibration), *empty));
+    FingerDetector detector(border_curve(calibration), *empty);
+    if (const auto* const rig_calibration = std::get_if<RigCalibration>(&calibration.solved)) {
+      detector.know_camera(rig_calibration->solution.model.camera);
+    }
+    return AnyDetector(std::move(detector));
   } catch (const std::invalid_argument& problem) {
     return Error{fmt::format("{}: {}", rig.path.string(), problem.what())};
   }

@@ -21,4 +21,15 @@ inline std::uint64_t unfit_pictures(const AnyDetector& detector) {
   return std::visit([](const auto& chosen) { return chosen.unfit_pictures(); }, detector);
 }
 
+// After detect() of a live camera's frame that can be believed, see FingerDetector::adapt().
+inline void adapt(AnyDetector& detector, Timestamp now) {
+  if (auto* chosen = std::get_if<FingerDetector>(&detector)) chosen->adapt(now);
+}
+
+// The default detector's background; the thesis' has none.
+inline const BackgroundLearner* background(const AnyDetector& detector) {
+  const auto* chosen = std::get_if<FingerDetector>(&detector);
+  return chosen == nullptr ? nullptr : &chosen->background();
+}
+
 }  // namespace telehug

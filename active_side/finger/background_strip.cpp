@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 
 namespace telehug {
 namespace {
@@ -26,8 +25,10 @@ constexpr float learn_finger = 1.0F / 3600;
 BackgroundStrip::BackgroundStrip(const BorderStrip::Layout& layout, const BorderStrip& empty)
     : columns_(layout.columns),
       background_(empty),
-      inverse_variance_(layout.cells() * BorderStrip::channels),
+      inverse_deviation_(layout.cells() * BorderStrip::channels),
       distance_(layout.cells()),
+      difference_(layout.cells() * BorderStrip::channels),
+      new_edges_(layout.cells()),
       scratch_(static_cast<std::size_t>(layout.columns)) {
   for (int rail = 0; rail < BorderStrip::rails; ++rail)
     set_background(rail);
@@ -37,19 +38,25 @@ void BackgroundStrip::set_background(int rail) {
   for (int channel = 0; channel < BorderStrip::channels; ++channel) {
     const float* const level = background_.row(channel, rail);
     float* const inverse =
-        inverse_variance_.data() + static_cast<std::ptrdiff_t>(channel * BorderStrip::rails + rail) * columns_;
+        inverse_deviation_.data() + static_cast<std::ptrdiff_t>(channel * BorderStrip::rails + rail) * columns_;
     for (int i = 0; i < columns_; ++i) {
-      inverse[i] = 1.0F / (noise_level * noise_level + uneven_light * uneven_light * level[i] * level[i]);
+      inverse[i] = 1.0F / std::sqrt(noise_level * noise_level + uneven_light * uneven_light * level[i] * level[i]);
     }
   }
 }
 
-// Of one cell, in variances of the noise, summed over the channels.
+// Of one value, in standard deviations.
+inline float BackgroundStrip::difference_at(const RailView& rail, const Gain& gain, std::size_t channel, int i) {
+  const float difference = gain[channel] * (rail.now[channel][i] + dark) - (rail.then[channel][i] + dark);
+  return difference * rail.inverse_deviation[channel][i];
+}
+
+// Of one cell, in variances, summed over the channels.
 inline float BackgroundStrip::distance2(const RailView& rail, const Gain& gain, int i) {
   float sum = 0;
   for (std::size_t k = 0; k < gain.size(); ++k) {
-    const float difference = gain[k] * (rail.now[k][i] + dark) - (rail.then[k][i] + dark);
-    sum += difference * difference * rail.inverse_variance[k][i];
+    const float difference = difference_at(rail, gain, k, i);
+    sum += difference * difference;
   }
   return sum;
 }
@@ -60,8 +67,8 @@ BackgroundStrip::RailView BackgroundStrip::view(const BorderStrip& strip, int ra
     const auto k = static_cast<std::size_t>(channel);
     view.now[k] = strip.row(channel, rail);
     view.then[k] = background_.row(channel, rail);
-    view.inverse_variance[k] =
-        inverse_variance_.data() + static_cast<std::ptrdiff_t>(channel * BorderStrip::rails + rail) * columns_;
+    view.inverse_deviation[k] =
+        inverse_deviation_.data() + static_cast<std::ptrdiff_t>(channel * BorderStrip::rails + rail) * columns_;
   }
   return view;
 }
@@ -106,7 +113,13 @@ const std::vector<float>& BackgroundStrip::distance(const BorderStrip& strip) {
     for (int round = 0; round < levelling_rounds; ++round)
       gain = better_gain(rail, gain);
     gain_[static_cast<std::size_t>(r)] = gain;
-    float* const distance = distance_.data() + static_cast<std::ptrdiff_t>(r) * columns_;
+    const auto start = static_cast<std::ptrdiff_t>(r) * columns_;
+    for (std::size_t k = 0; k < gain.size(); ++k) {
+      float* const difference = difference_.data() + static_cast<std::ptrdiff_t>(k * distance_.size()) + start;
+      for (int i = 0; i < columns_; ++i)
+        difference[i] = difference_at(rail, gain, k, i);
+    }
+    float* const distance = distance_.data() + start;
     for (int i = 0; i < columns_; ++i) {
       const float d = std::min(std::sqrt(distance2(rail, gain, i) / BorderStrip::channels), far);
       distance[i] = d;
@@ -115,6 +128,24 @@ const std::vector<float>& BackgroundStrip::distance(const BorderStrip& strip) {
   }
   unchanged_share_ = static_cast<double>(alike) / static_cast<double>(distance_.size());
   return distance_;
+}
+
+// Of the whole planes at once; the outermost cells are set to none, their neighbours lie on other rails.
+const std::vector<float>& BackgroundStrip::new_edges() {
+  const auto plane = static_cast<std::ptrdiff_t>(distance_.size());
+  const float* const blue = difference_.data();
+  const float* const green = blue + plane;
+  const float* const red = green + plane;
+  float* const edge = new_edges_.data();
+  for (std::ptrdiff_t i = 1; i + 1 < plane; ++i) {
+    const float b = blue[i + 1] - blue[i - 1];
+    const float g = green[i + 1] - green[i - 1];
+    const float r = red[i + 1] - red[i - 1];
+    edge[i] = std::min(std::sqrt((b * b + g * g + r * r) / BorderStrip::channels), far);
+  }
+  for (std::ptrdiff_t first = 0; first < plane; first += columns_)
+    edge[first] = edge[first + columns_ - 1] = 0;
+  return new_edges_;
 }
 
 void BackgroundStrip::adapt(const BorderStrip& strip, const std::vector<bool>& is_finger) {
@@ -135,17 +166,10 @@ void BackgroundStrip::adapt(const BorderStrip& strip, const std::vector<bool>& i
   }
 }
 
-cv::Mat BackgroundStrip::picture() const {
-  cv::Mat picture(BorderStrip::rails, columns_, CV_8UC3);
-  for (int rail = 0; rail < BorderStrip::rails; ++rail) {
-    std::uint8_t* const out = picture.ptr<std::uint8_t>(rail);
-    for (int channel = 0; channel < BorderStrip::channels; ++channel) {
-      const float* const level = background_.row(channel, rail);
-      for (int i = 0; i < columns_; ++i)
-        out[BorderStrip::channels * i + channel] = cv::saturate_cast<std::uint8_t>(level[i]);
-    }
-  }
-  return picture;
+void BackgroundStrip::set(const BorderStrip& empty) {
+  background_ = empty;
+  for (int rail = 0; rail < BorderStrip::rails; ++rail)
+    set_background(rail);
 }
 
 }  // namespace telehug

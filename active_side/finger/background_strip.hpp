@@ -24,6 +24,9 @@ class BackgroundStrip {
   // Valid until the next call. Allocates nothing.
   static constexpr float far = 6;
   const std::vector<float>& distance(const BorderStrip& strip);
+  // How much the strip's difference from the background changes about each cell along its rail, in standard
+  // deviations, cut off at `far`: edges that are not the background's own. Of the last distance().
+  const std::vector<float>& new_edges();
 
   // The share of cells that looked like background in the last distance(): near 0 when the light was switched or the
   // camera was moved.
@@ -33,8 +36,8 @@ class BackgroundStrip {
   // there) slowly, those under fingers - `is_finger`, one flag a column, or all if the scene is disturbed - hardly.
   void adapt(const BorderStrip& strip, const std::vector<bool>& is_finger);
 
-  // The strip as a picture (CV_8UC3, columns by rails) to keep it in a file, and back.
-  [[nodiscard]] cv::Mat picture() const;
+  // From now on `empty` is what the strip looks like with nobody there. Allocates nothing.
+  void set(const BorderStrip& empty);
 
  private:
   using Gain = std::array<float, BorderStrip::channels>;
@@ -43,19 +46,22 @@ class BackgroundStrip {
   struct RailView {
     Channels now;
     Channels then;
-    Channels inverse_variance;
+    Channels inverse_deviation;
   };
 
   void set_background(int rail);
   [[nodiscard]] RailView view(const BorderStrip& strip, int rail) const;
+  [[nodiscard]] static float difference_at(const RailView& rail, const Gain& gain, std::size_t channel, int column);
   [[nodiscard]] static float distance2(const RailView& rail, const Gain& gain, int column);
   [[nodiscard]] float first_gain(const RailView& rail);
   [[nodiscard]] Gain better_gain(const RailView& rail, const Gain& gain) const;
 
   int columns_;
   BorderStrip background_;
-  std::vector<float> inverse_variance_;  // of each value
+  std::vector<float> inverse_deviation_;  // of each value
   std::vector<float> distance_;
+  std::vector<float> difference_;  // of each value from the background, in standard deviations
+  std::vector<float> new_edges_;
   std::array<Gain, BorderStrip::rails> gain_{};  // background = gain * frame
   std::vector<float> scratch_;
   double unchanged_share_ = 1;

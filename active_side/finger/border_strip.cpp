@@ -11,7 +11,7 @@ BorderStrip::Layout::Layout(const BorderCurve& border, ImageSize size)
     : image(size),
       columns(0),
       column_px(std::max(1, static_cast<int>(std::lround(column_step_px * size.width_px / 1280.0)))),
-      rail_px(std::max(1.0, rail_step_px * size.height_px / 720.0)) {
+      scale(size.height_px / 720.0) {
   columns = size.width_px / column_px;
   first_row.reserve(cells());
   for (int rail = 0; rail < rails; ++rail) {
@@ -60,6 +60,28 @@ void BorderStrip::sample(const cv::Mat& bgr, const Layout& layout) {
       return sample_cells<3>(bgr, layout);
     default:
       return sample_cells<0>(bgr, layout);
+  }
+}
+
+cv::Mat BorderStrip::picture() const {
+  cv::Mat picture(rails, columns_, CV_8UC3);
+  for (int rail = 0; rail < rails; ++rail) {
+    std::uint8_t* const out = picture.ptr<std::uint8_t>(rail);
+    for (int channel = 0; channel < channels; ++channel) {
+      for (int i = 0; i < columns_; ++i)
+        out[channels * i + channel] = cv::saturate_cast<std::uint8_t>(row(channel, rail)[i]);
+    }
+  }
+  return picture;
+}
+
+void BorderStrip::set(const cv::Mat& picture) {
+  for (int rail = 0; rail < rails; ++rail) {
+    const std::uint8_t* const in = picture.ptr<std::uint8_t>(rail);
+    for (int channel = 0; channel < channels; ++channel) {
+      for (int i = 0; i < columns_; ++i)
+        row(channel, rail)[i] = in[channels * i + channel];
+    }
   }
 }
 

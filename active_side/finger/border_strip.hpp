@@ -17,8 +17,8 @@ namespace telehug {
 class BorderStrip {
  public:
   static constexpr int rails = 16;
-  static constexpr int rail_step_px = 4;    // rail r is 4 (r + 1) rows in front of the edge, in a picture 720 rows high
-  static constexpr int column_step_px = 2;  // and cells are two pixels wide there
+  static constexpr int near_rails = 8;      // on the bezel, where neither other fingers nor shadows disturb much
+  static constexpr int column_step_px = 2;  // width of a cell in pictures of 1280 columns
   static constexpr int channels = 3;
 
   // Where the cells lie in pictures of one size and one border. Rails that leave the picture repeat its first rows.
@@ -28,9 +28,12 @@ class BorderStrip {
     ImageSize image;
     int columns;
     int column_px;               // width of a cell
-    double rail_px;              // distance of two rails
+    double scale;                // of lengths: 1 in pictures 720 rows high
     std::vector<int> first_row;  // of each cell: the upper one of the two rows that it averages
-    [[nodiscard]] double offset_px(int rail) const noexcept { return -rail_px * (rail + 1); }
+    // Rows from the edge to the rail: near ones 3, 5, ... 17 in front of it, the others 23, 29, ... 65.
+    [[nodiscard]] double offset_px(int rail) const noexcept {
+      return -scale * (rail < near_rails ? 3 + 2 * rail : 23 + 6 * (rail - near_rails));
+    }
     [[nodiscard]] double column_centre_px(int column) const noexcept { return (column + 0.5) * column_px - 0.5; }
     [[nodiscard]] std::size_t cells() const noexcept { return static_cast<std::size_t>(columns) * rails; }
   };
@@ -39,6 +42,10 @@ class BorderStrip {
 
   // `bgr` is CV_8UC3 of the layout's size. Allocates nothing.
   void sample(const cv::Mat& bgr, const Layout& layout);
+
+  // As a picture (CV_8UC3, columns by rails) to keep it in a file, and back.
+  [[nodiscard]] cv::Mat picture() const;
+  void set(const cv::Mat& picture);
 
   [[nodiscard]] int columns() const noexcept { return columns_; }
   // The rail's row of one channel, columns() long.

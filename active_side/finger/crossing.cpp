@@ -9,62 +9,65 @@
 namespace telehug {
 namespace {
 
-constexpr double steepest = 0.9;
-constexpr double slope_step = 2 * steepest / (CrossingFinder::slopes - 1);
-constexpr float step_unit = 1.0F / 32;  // of a step of the foreground, in standard deviations
-constexpr float least_edge = 1;         // mean step of an edge, in standard deviations
-constexpr float most_against = -1;      // how much a rail with the opposite step counts against an edge
-constexpr float far_enough = 5;         // steps beyond this are all alike: skin colours make no difference
+constexpr double steepest = 1.56;          // 57 degrees from straight across the border
+constexpr float least_edge = 0.9F;         // mean step of an edge, in standard deviations
+constexpr float most_against = -1;         // how much a rail with the opposite step counts against an edge
+constexpr float far_enough = 5;            // steps beyond this are all alike: skin colours make no difference
+constexpr float edge_without_step = 0.4F;  // worth of an edge whose sides differ from the background alike
+// Worth of a step on an edge that is seen on the bezel only, and of one on all rails: 0.8 to 1 for the whole edges.
+constexpr int near_weight = 8;
+constexpr int all_weight = 5;
+constexpr float step_unit = 1.0F / 32;  // of a step, in standard deviations
 constexpr float is_foreground = 2;
-constexpr int rails_between = 10;  // from the border on, looked at for foreground between two edges
-constexpr double least_foreground = 0.75;
-constexpr double largest_taper = 0.65;  // difference of two edges' slopes
-constexpr double narrowest_px = 25;     // in a picture 1280 columns wide: 7 mm at the far end of a 340 mm high screen
-constexpr double widest_px = 190;       // 20 mm close to the camera
+constexpr double least_foreground = 0.5;
+constexpr double foreground_weight = 2;
+constexpr double beside_weight = 0.6;  // of foreground on either side: then this is only a part of a finger
+constexpr int shared_columns = 3;
+constexpr double shared_margin = 1.0;
+constexpr double of_a_finger = 4.3;  // strength that a second finger must bring to be believed
+constexpr double beside_px = 14;
+constexpr double largest_taper = 0.75;  // difference of two edges' slopes
+constexpr double narrowest_px = 14;     // a long nail's tip, at the far end of a wide screen; in pictures 720 rows high
+constexpr double widest_px = 190;       // a thumb, close to the camera
 constexpr int apart_columns = 3;        // two peaks of one edge
 
-double slope_of(std::size_t index) {
-  return -steepest + slope_step * static_cast<double>(index);
+double slope_of(int index, int slopes) {
+  return -steepest + 2 * steepest * index / (slopes - 1);
 }
 
-// Weighted least squares with weights that fall off for points beside the line (Geman and McClure 1985).
-FingerEdge robust_line(const std::array<double, 64>& v, const std::array<double, 64>& u, std::size_t n) {
-  std::array<double, 64> weight;
-  std::array<double, 64> distance;
-  weight.fill(1);
-  FingerEdge line;
-  for (int round = 0; round < 6; ++round) {
-    double s = 0;
-    double sv = 0;
-    double svv = 0;
-    double su = 0;
-    double suv = 0;
-    for (std::size_t i = 0; i < n; ++i) {
-      s += weight[i];
-      sv += weight[i] * v[i];
-      su += weight[i] * u[i];
-    }
-    line.v_px = sv / s;
-    for (std::size_t i = 0; i < n; ++i) {
-      const double dv = v[i] - line.v_px;
-      svv += weight[i] * dv * dv;
-      suv += weight[i] * dv * u[i];
-    }
-    line.u_px = su / s;
-    line.slope = suv / std::max(svv, 1e-9);
-    for (std::size_t i = 0; i < n; ++i)
-      distance[i] = std::abs(u[i] - line.u_at(v[i]));
-    std::array<double, 64> sorted = distance;
-    std::nth_element(sorted.begin(), sorted.begin() + static_cast<std::ptrdiff_t>(n / 2),
-                     sorted.begin() + static_cast<std::ptrdiff_t>(n));
-    const double scale = std::max(1.0, 1.5 * sorted[n / 2]);
-    for (std::size_t i = 0; i < n; ++i) {
-      const double z = distance[i] / scale;
-      weight[i] = 1 / ((1 + z * z) * (1 + z * z));
-    }
-  }
-  return line;
+float strength_of(int weighted_sum) {
+  return static_cast<float>(weighted_sum) * (step_unit / (all_weight * BorderStrip::rails));
 }
+
+// Least squares of points that come in one after the other.
+class GrowingLine {
+ public:
+  void add(double v, double u) {
+    n_ += 1;
+    v_ += v;
+    u_ += u;
+    vv_ += v * v;
+    uv_ += u * v;
+  }
+  [[nodiscard]] FingerEdge line(const FingerEdge& first, double first_weight) const {
+    // The edge that was known before counts like points on it, spread over `reach` rows.
+    constexpr double reach = 8;
+    const double v0 = first.v_px;
+    const double n = n_ + first_weight;
+    const double v_mean = (v_ + first_weight * v0) / n;
+    const double u_mean = (u_ + first_weight * first.u_px) / n;
+    const double spread = vv_ + first_weight * (v0 * v0 + reach * reach) - n * v_mean * v_mean;
+    const double joint = uv_ + first_weight * (v0 * first.u_px + reach * reach * first.slope) - n * v_mean * u_mean;
+    return {u_mean, v_mean, joint / std::max(spread, 1e-9)};
+  }
+
+ private:
+  double n_ = 0;
+  double v_ = 0;
+  double u_ = 0;
+  double vv_ = 0;
+  double uv_ = 0;
+};
 
 }  // namespace
 
@@ -72,8 +75,8 @@ CrossingFinder::CrossingFinder(const BorderStrip::Layout& layout)
     : layout_(layout),
       margin_(shift(-steepest, BorderStrip::rails - 1) + 1),
       row_(static_cast<std::size_t>(layout.columns + 2 * margin_)),
-      rises_(row_ * BorderStrip::rails),
-      falls_(rises_.size()),
+      left_steps_(row_ * BorderStrip::rails),
+      right_steps_(left_steps_.size()),
       sums_(static_cast<std::size_t>(layout.columns)),
       best_(sums_.size()),
       best_slope_(sums_.size()) {
@@ -85,176 +88,229 @@ int CrossingFinder::shift(double slope, int rail) const noexcept {
 }
 
 // The picture's sides end a finger as well as its own edges do.
-void CrossingFinder::find_steps(const std::vector<float>& foreground) {
+void CrossingFinder::find_steps(const std::vector<float>& foreground, const std::vector<float>& new_edges) {
   const int n = layout_.columns;
+  const auto fixed = [](float step) { return static_cast<Step>(step / step_unit); };
   for (int rail = 0; rail < BorderStrip::rails; ++rail) {
-    const float* const in = foreground.data() + static_cast<std::ptrdiff_t>(rail) * n;
-    Step* const rise = rises_.data() + first_of(rail);
-    Step* const fall = falls_.data() + first_of(rail);
-    const auto set = [&](int i, float before, float after) {
-      const float step = std::min(after, far_enough) - std::min(before, far_enough);
-      rise[i] = static_cast<Step>(std::max(step, most_against) / step_unit);
-      fall[i] = static_cast<Step>(std::max(-step, most_against) / step_unit);
-    };
-    set(0, 0, in[1]);
-    for (int i = 1; i + 1 < n; ++i)
-      set(i, in[i - 1], in[i + 1]);
-    set(n - 1, in[n - 2], 0);
+    const auto start = static_cast<std::ptrdiff_t>(rail) * n;
+    const float* const in = foreground.data() + start;
+    const float* const edge = new_edges.data() + start;
+    Step* const left = left_steps_.data() + first_of(rail);
+    Step* const right = right_steps_.data() + first_of(rail);
+    for (int i = 1; i + 1 < n; ++i) {
+      const float step = std::min(in[i + 1], far_enough) - std::min(in[i - 1], far_enough);
+      const float highest = std::max(std::max(in[i - 1], in[i]), in[i + 1]);
+      const float unsigned_step = highest > is_foreground ? edge_without_step * std::min(edge[i], far_enough) : 0.0F;
+      const float least = std::max(unsigned_step, most_against);
+      left[i] = fixed(std::max(step, least));
+      right[i] = fixed(std::max(-step, least));
+    }
+    left[0] = fixed(std::min(in[0], far_enough));
+    right[n - 1] = fixed(std::min(in[n - 1], far_enough));
+    left[n - 1] = right[0] = 0;
+    if (rail < BorderStrip::near_rails) continue;
+    // Slopes are tried in steps that miss a far rail's cell by one.
+    for (Step* const steps : {left, right}) {
+      std::copy_n(steps, n, sums_.begin());
+      const Step* const narrow = sums_.data();
+      for (int i = 1; i + 1 < n; ++i)
+        steps[i] = std::max(std::max(narrow[i - 1], narrow[i]), narrow[i + 1]);
+    }
+  }
+}
+
+// Of all rails from `first_rail` to before `end_rail`, four at once.
+void CrossingFinder::add_rails(const Steps& steps, double slope, int first_rail, int end_rail) {
+  constexpr int at_once = 4;
+  static_assert(BorderStrip::rails % at_once == 0 && BorderStrip::near_rails % at_once == 0);
+  for (int rail = first_rail; rail < end_rail; rail += at_once) {
+    const auto row = [&](int r) { return steps.data() + first_of(r) + shift(slope, r); };
+    const Step* const a = row(rail);
+    const Step* const b = row(rail + 1);
+    const Step* const c = row(rail + 2);
+    const Step* const d = row(rail + 3);
+    Step* const sum = sums_.data();
+    for (int i = 0; i < layout_.columns; ++i)
+      sum[i] = static_cast<Step>(sum[i] + a[i] + b[i] + c[i] + d[i]);
   }
 }
 
 void CrossingFinder::find_edges(const Steps& steps, Peaks& peaks) {
-  const int n = layout_.columns;
   std::fill(best_.begin(), best_.end(), Step{0});
-  for (std::size_t slope = 0; slope < slopes; ++slope) {
+  for (int s = 0; s < slopes; ++s) {
+    const auto keep_best = [&](int weight) {
+      for (std::size_t i = 0; i < sums_.size(); ++i) {
+        const auto strength = static_cast<Step>(weight * sums_[i]);
+        const bool better = strength > best_[i];
+        best_[i] = better ? strength : best_[i];
+        best_slope_[i] = better ? static_cast<Step>(s) : best_slope_[i];
+      }
+    };
+    const double slope = slope_of(s, slopes);
     std::fill(sums_.begin(), sums_.end(), Step{0});
-    constexpr int at_once = 4;  // rails
-    static_assert(BorderStrip::rails % at_once == 0);
-    for (int rail = 0; rail < BorderStrip::rails; rail += at_once) {
-      const auto row = [&](int r) { return steps.data() + first_of(r) + shift(slope_of(slope), r); };
-      const Step* const a = row(rail);
-      const Step* const b = row(rail + 1);
-      const Step* const c = row(rail + 2);
-      const Step* const d = row(rail + 3);
-      Step* const sum = sums_.data();
-      for (int i = 0; i < n; ++i)
-        sum[i] = static_cast<Step>(sum[i] + a[i] + b[i] + c[i] + d[i]);
-    }
-    for (std::size_t i = 0; i < sums_.size(); ++i) {
-      const bool better = sums_[i] > best_[i];
-      best_[i] = better ? sums_[i] : best_[i];
-      best_slope_[i] = better ? static_cast<Step>(slope) : best_slope_[i];
-    }
+    add_rails(steps, slope, 0, BorderStrip::near_rails);
+    keep_best(near_weight);
+    add_rails(steps, slope, BorderStrip::near_rails, BorderStrip::rails);
+    keep_best(all_weight);
   }
   candidates_.clear();
-  for (int i = 0; i < n; ++i) {
-    const float strength = mean_step(best_[static_cast<std::size_t>(i)]);
-    if (strength >= least_edge)
-      candidates_.push_back(
-          {i, slope_of(static_cast<std::size_t>(best_slope_[static_cast<std::size_t>(i)])), strength});
+  for (int i = 0; i < layout_.columns; ++i) {
+    const auto column = static_cast<std::size_t>(i);
+    const float strength = strength_of(best_[column]);
+    if (strength >= least_edge) candidates_.push_back({i, slope_of(best_slope_[column], slopes), strength});
   }
   peaks.clear();
   while (!candidates_.empty() && peaks.size() < peaks.capacity()) {
     const Peak highest = *std::max_element(candidates_.begin(), candidates_.end(),
                                            [](const Peak& x, const Peak& y) { return x.strength < y.strength; });
+    peaks.push_back(highest);
     std::erase_if(candidates_,
                   [&](const Peak& peak) { return std::abs(peak.column - highest.column) <= apart_columns; });
-    peaks.push_back(between_slopes(steps, highest));
   }
 }
 
-float CrossingFinder::mean_step(int sum) noexcept {
-  return static_cast<float>(sum) * (step_unit / BorderStrip::rails);
-}
-
-// The best of the slopes beside a peak's, at its place or next to it.
-CrossingFinder::Peak CrossingFinder::between_slopes(const Steps& steps, const Peak& peak) const {
-  Peak best = peak;
-  for (const double slope : {peak.slope - 0.5 * slope_step, peak.slope + 0.5 * slope_step}) {
-    if (std::abs(slope) > steepest) continue;
-    for (int column = std::max(0, peak.column - 2); column <= std::min(layout_.columns - 1, peak.column + 2);
-         ++column) {
-      int sum = 0;
-      for (int rail = 0; rail < BorderStrip::rails; ++rail)
-        sum += steps[static_cast<std::size_t>(first_of(rail) + column + shift(slope, rail))];
-      if (mean_step(sum) > best.strength) best = {column, slope, mean_step(sum)};
-    }
-  }
-  return best;
-}
-
-double CrossingFinder::foreground_between(const std::vector<float>& foreground, const Peak& left,
-                                          const Peak& right) const {
+double CrossingFinder::foreground_share(const std::vector<float>& foreground, double from, double from_slope, double to,
+                                        double to_slope) const {
   const int n = layout_.columns;
   double share = 0;
-  for (int rail = 0; rail < rails_between; ++rail) {
+  int rails = 0;
+  for (int rail = 0; rail < BorderStrip::near_rails; ++rail) {
     const double offset = layout_.offset_px(rail) / layout_.column_px;
-    const int first = std::max(0, left.column + static_cast<int>(left.slope * offset) + 2);
-    const int last = std::min(n - 1, right.column + static_cast<int>(right.slope * offset) - 2);
-    if (last - first < 2) continue;
+    const int first = std::max(0, static_cast<int>(std::lround(from + from_slope * offset)));
+    const int last = std::min(n - 1, static_cast<int>(std::lround(to + to_slope * offset)));
+    if (last < first) continue;
     const float* const row = foreground.data() + static_cast<std::ptrdiff_t>(rail) * n;
     int covered = 0;
-    for (int i = first; i < last; ++i)
+    for (int i = first; i <= last; ++i)
       covered += row[i] > is_foreground ? 1 : 0;
-    share += static_cast<double>(covered) / (last - first);
+    share += static_cast<double>(covered) / (last - first + 1);
+    ++rails;
   }
-  return share / rails_between;
+  return rails > 0 ? share / rails : 0;
 }
 
-// From the picture itself: the largest step of colour near the edge, in rows along its length, to parts of a pixel.
-FingerEdge CrossingFinder::refined(const Peak& peak, const cv::Mat& bgr, const BorderCurve& border) const {
-  constexpr int reach = 6;  // columns to each side
+// From the picture itself: the largest step of colour near the edge in row after row, away from the border to both
+// sides as long as there is one; to parts of a pixel.
+FingerEdge CrossingFinder::followed(const Peak& peak, const cv::Mat& bgr, const BorderCurve& border) const {
+  constexpr int reach = 4;  // columns to each side of where the edge is expected
   constexpr int mean = 3;   // columns and rows that are averaged on each side of a step
-  constexpr int row_step = 3;
-  std::array<double, 64> v;
-  std::array<double, 64> u;
-  std::size_t n = 0;
+  constexpr int places = 2 * reach + 1;
+  constexpr int row_step = 2;
+  constexpr int most_lost = 4;       // rows without an edge that end it
+  constexpr double least_step = 16;  // grey levels, sum of the channels
   const double at_border_px = layout_.column_centre_px(peak.column);
+  const double up_px = 65 * layout_.scale;
+  const double down_px = 40 * layout_.scale;
   const FingerEdge coarse{at_border_px, border.v_at(at_border_px), peak.slope};
-  const int length = static_cast<int>(-layout_.offset_px(BorderStrip::rails - 1));
-  for (int offset = -length; offset < 0 && n < v.size(); offset += row_step) {
-    const auto row = static_cast<int>(std::lround(coarse.v_px + offset));
-    const auto middle = static_cast<int>(std::lround(coarse.u_at(row)));
-    if (row < 1 || row > bgr.rows - 2 || middle < reach + mean || middle >= bgr.cols - reach - mean) continue;
-    // Interleaved channels of all columns that count, three rows together; then the steps at 2 reach + 1 of them.
-    constexpr int places = 2 * reach + 1;
-    std::array<int, std::size_t{3} * (places + 2 * mean)> sum;
-    const std::uint8_t* const pixels = bgr.ptr<std::uint8_t>(row) + 3 * (middle - reach - mean);
-    const std::uint8_t* const above = pixels - bgr.step[0];
-    const std::uint8_t* const below = pixels + bgr.step[0];
-    for (std::size_t i = 0; i < sum.size(); ++i)
-      sum[i] = above[i] + pixels[i] + below[i];
-    std::array<int, std::size_t{3} * places> difference;
-    for (std::size_t i = 0; i < difference.size(); ++i)
-      difference[i] = std::abs(sum[i + 12] + sum[i + 15] + sum[i + 18] - sum[i] - sum[i + 3] - sum[i + 6]);
-    std::array<double, places> step;
-    std::size_t best = 0;
-    for (std::size_t i = 0; i < step.size(); ++i) {
-      step[i] = difference[3 * i] + difference[3 * i + 1] + difference[3 * i + 2];
-      if (step[i] > step[best]) best = i;
-    }
-    double part = 0;
-    if (best > 0 && best + 1 < step.size()) {
+  constexpr double coarse_weight = 3;
+  GrowingLine all;
+  const auto follow = [&](double first_offset, double last_offset, int direction) {
+    int lost = 0;
+    for (double offset = first_offset; direction * (last_offset - offset) >= 0; offset += direction * row_step) {
+      const FingerEdge expected = all.line(coarse, coarse_weight);
+      const auto row = static_cast<int>(std::lround(coarse.v_px + offset));
+      const auto middle = static_cast<int>(std::lround(expected.u_at(row)));
+      if (row < 1 || row > bgr.rows - 2 || middle < reach + mean || middle >= bgr.cols - reach - mean) return;
+      // Interleaved channels of all columns that count, three rows together; then the steps at each place.
+      std::array<int, std::size_t{3} * (places + 2 * mean)> sum;
+      const std::uint8_t* const pixels = bgr.ptr<std::uint8_t>(row) + 3 * (middle - reach - mean);
+      const std::uint8_t* const above = pixels - bgr.step[0];
+      const std::uint8_t* const below = pixels + bgr.step[0];
+      for (std::size_t i = 0; i < sum.size(); ++i)
+        sum[i] = above[i] + pixels[i] + below[i];
+      std::array<int, std::size_t{3} * places> difference;
+      for (std::size_t i = 0; i < difference.size(); ++i)
+        difference[i] = std::abs(sum[i + 12] + sum[i + 15] + sum[i + 18] - sum[i] - sum[i + 3] - sum[i + 6]);
+      std::array<double, places> step;
+      std::size_t best = 0;
+      for (std::size_t i = 0; i < step.size(); ++i) {
+        step[i] = (difference[3 * i] + difference[3 * i + 1] + difference[3 * i + 2]) / 9.0;
+        if (step[i] > step[best]) best = i;
+      }
+      // At the end of the search there may be more beyond it: something else.
+      if (step[best] < least_step || best == 0 || best + 1 == step.size()) {
+        if (++lost > most_lost) return;
+        continue;
+      }
+      lost = 0;
       const double bend = step[best - 1] - 2 * step[best] + step[best + 1];
-      if (bend < 0) part = 0.5 * (step[best - 1] - step[best + 1]) / bend;
+      const double part = bend < 0 ? 0.5 * (step[best - 1] - step[best + 1]) / bend : 0;
+      all.add(row, middle - reach + static_cast<double>(best) + part);
     }
-    v[n] = row;
-    u[n] = middle - reach + static_cast<double>(best) + part;
-    ++n;
-  }
-  constexpr std::size_t fewest = 6;
-  return n < fewest ? coarse : robust_line(v, u, n);
+  };
+  follow(-3 * layout_.scale, -up_px, -1);
+  follow(3 * layout_.scale, down_px, 1);
+  return all.line(coarse, coarse_weight);
 }
 
-const Crossings& CrossingFinder::find(const std::vector<float>& foreground, const cv::Mat& bgr,
-                                      const BorderCurve& border) {
+// The pairs that do not overlap and together are worth most: one finger, or two with a gap between their inner edges.
+void CrossingFinder::choose(Pairs& pairs) {
+  std::sort(pairs.begin(), pairs.end(), [](const Pair& a, const Pair& b) { return a.right.column < b.right.column; });
+  std::array<double, max_pairs + 1> worth;  // of the best choice among the first n
+  std::array<std::size_t, max_pairs> rest;  // how many pairs lie wholly to the left of this one
+  std::array<bool, max_pairs> taken;
+  worth[0] = 0;
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    std::size_t n = i;
+    while (n > 0 && pairs[n - 1].right.column > pairs[i].left.column)
+      --n;
+    rest[i] = n;
+    const double with = worth[n] + pairs[i].strength - of_a_finger;
+    taken[i] = with > worth[i];
+    worth[i + 1] = std::max(with, worth[i]);
+  }
+  Pairs chosen;
+  for (std::size_t i = pairs.size(); i > 0;) {
+    if (taken[i - 1]) {
+      chosen.push_back(pairs[i - 1]);
+      i = rest[i - 1];
+    } else {
+      --i;
+    }
+  }
+  std::sort(chosen.begin(), chosen.end(), [](const Pair& a, const Pair& b) { return a.strength > b.strength; });
+  // What shares an edge with a clearer finger is its shadow, or a strip of it.
+  pairs.clear();
+  for (const Pair& pair : chosen) {
+    const bool part = std::any_of(pairs.begin(), pairs.end(), [&](const Pair& clearer) {
+      const int apart = std::min(std::abs(pair.left.column - clearer.right.column),
+                                 std::abs(clearer.left.column - pair.right.column));
+      return apart <= shared_columns && pair.strength < clearer.strength - shared_margin;
+    });
+    if (!part) pairs.push_back(pair);
+  }
+}
+
+const Crossings& CrossingFinder::find(const std::vector<float>& foreground, const std::vector<float>& new_edges,
+                                      const cv::Mat& bgr, const BorderCurve& border) {
   crossings_.clear();
-  find_steps(foreground);
+  find_steps(foreground, new_edges);
   Peaks lefts;
   Peaks rights;
-  find_edges(rises_, lefts);
-  find_edges(falls_, rights);
+  find_edges(left_steps_, lefts);
+  find_edges(right_steps_, rights);
 
-  struct Pair {
-    double strength;
-    Peak left;
-    Peak right;
-  };
-  boost::container::static_vector<Pair, most_edges * most_edges> pairs;
-  const double scale = layout_.image.width_px / 1280.0;
+  Pairs pairs;
+  const double beside = beside_px * layout_.scale / layout_.column_px;
   for (const Peak& left : lefts) {
     for (const Peak& right : rights) {
       const double width_px = (right.column - left.column) * layout_.column_px;
       const double taper = std::abs(left.slope - right.slope);
-      if (width_px < narrowest_px * scale || width_px > widest_px * scale || taper > largest_taper) continue;
+      if (width_px < narrowest_px * layout_.scale || width_px > widest_px * layout_.scale || taper > largest_taper) {
+        continue;
+      }
       const double edges = static_cast<double>(left.strength + right.strength) - taper;
-      if (edges + 2 < least_strength) continue;
-      const double between = foreground_between(foreground, left, right);
-      const double strength = edges + 2 * between;
-      if (between >= least_foreground && strength >= least_strength) pairs.push_back({strength, left, right});
+      if (edges + foreground_weight < least_strength) continue;
+      const double between = foreground_share(foreground, left.column + 1, left.slope, right.column - 1, right.slope);
+      if (between < least_foreground) continue;
+      const double outside =
+          foreground_share(foreground, left.column - beside, left.slope, left.column - 2, left.slope) +
+          foreground_share(foreground, right.column + 2, right.slope, right.column + beside, right.slope);
+      const double strength = edges + foreground_weight * between - beside_weight * outside;
+      if (strength >= least_strength) pairs.push_back({strength, left, right});
     }
   }
-  std::sort(pairs.begin(), pairs.end(), [](const Pair& a, const Pair& b) { return a.strength > b.strength; });
+  choose(pairs);
   const double deepest_px = layout_.offset_px(BorderStrip::rails - 1);
   for (const Pair& pair : pairs) {
     if (crossings_.size() == crossings_.capacity()) break;
@@ -266,14 +322,10 @@ const Crossings& CrossingFinder::find(const std::vector<float>& foreground, cons
     found.last_column = std::min(layout_.columns - 1, pair.right.column + std::max(0, reach(pair.right)));
     const double left_px = layout_.column_centre_px(pair.left.column);
     const double right_px = layout_.column_centre_px(pair.right.column);
-    const bool overlaps = std::any_of(crossings_.begin(), crossings_.end(), [&](const Crossing& other) {
-      const double v = border.v_at(0.5 * (left_px + right_px));
-      constexpr double touching_px = 6;
-      return right_px > other.left.u_at(v) + touching_px && left_px < other.right.u_at(v) - touching_px;
-    });
-    if (overlaps) continue;
-    found.left = refined(pair.left, bgr, border);
-    found.right = refined(pair.right, bgr, border);
+    found.left = followed(pair.left, bgr, border);
+    found.right = followed(pair.right, bgr, border);
+    const double middle_v = border.v_at(0.5 * (left_px + right_px));
+    if (found.right.u_at(middle_v) - found.left.u_at(middle_v) < narrowest_px * layout_.scale) continue;
     crossings_.push_back(found);
   }
   return crossings_;

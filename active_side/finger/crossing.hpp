@@ -38,36 +38,48 @@ using Crossings = boost::container::static_vector<Crossing, max_contacts>;
 
 class CrossingFinder {
  public:
-  // Sum of the two edges' mean steps in standard deviations (each up to 5) and twice the share of foreground between
-  // them. Shadows and specks that were seen stay below 3.5, fingers of skin that is like what lies behind above 5.
+  // The sum of the two edges' mean steps in standard deviations (each up to 5), twice the share of foreground between
+  // them, less what speaks against a finger: foreground beside it, edges that are not parallel.
   static constexpr double least_strength = 4.5;
-  static constexpr std::size_t slopes = 19;  // looked at, from -0.9 to 0.9; then those halfway between
 
   explicit CrossingFinder(const BorderStrip::Layout& layout);
 
-  // `foreground` is what BackgroundStrip::distance() says of `bgr`'s strip. From the strongest on, no two overlap. The
-  // result lives until the next call. Allocates nothing.
-  const Crossings& find(const std::vector<float>& foreground, const cv::Mat& bgr, const BorderCurve& border);
+  // `foreground` and `new_edges` are what BackgroundStrip says of `bgr`'s strip. From the strongest on, no two overlap.
+  // The result lives until the next call. Allocates nothing.
+  const Crossings& find(const std::vector<float>& foreground, const std::vector<float>& new_edges, const cv::Mat& bgr,
+                        const BorderCurve& border);
 
  private:
-  static constexpr std::size_t most_edges = 24;
+  static constexpr int slopes = 27;  // from -1.56 to 1.56
+  static constexpr std::size_t most_edges = 28;
   struct Peak {
     int column = 0;
     double slope = 0;
     float strength = 0;  // mean step over the rails, in standard deviations
   };
+  struct Pair {
+    double strength = 0;
+    Peak left;
+    Peak right;
+  };
+  static constexpr std::size_t max_pairs = most_edges * most_edges;
+  using Pairs = boost::container::static_vector<Pair, max_pairs>;
   using Peaks = boost::container::static_vector<Peak, most_edges>;
-  // Fixed point, so that sums over all rails fit as well. Rails by columns, with a margin of zeros at both sides.
+
+  // Fixed point, so that weighted sums over all rails fit as well. Rails by columns, with a margin of zeros at both
+  // sides.
   using Step = std::int16_t;
   using Steps = std::vector<Step>;
 
-  void find_steps(const std::vector<float>& foreground);
+  static void choose(Pairs& pairs);
+  void find_steps(const std::vector<float>& foreground, const std::vector<float>& new_edges);
+  void add_rails(const Steps& steps, double slope, int first_rail, int end_rail);
   void find_edges(const Steps& steps, Peaks& peaks);
-  [[nodiscard]] static float mean_step(int sum) noexcept;
-  [[nodiscard]] Peak between_slopes(const Steps& steps, const Peak& peak) const;
-  [[nodiscard]] double foreground_between(const std::vector<float>& foreground, const Peak& left,
-                                          const Peak& right) const;
-  [[nodiscard]] FingerEdge refined(const Peak& peak, const cv::Mat& bgr, const BorderCurve& border) const;
+  // On the rails next to the border, between columns given there with the slopes of edges.
+  [[nodiscard]] double foreground_share(const std::vector<float>& foreground, double from, double from_slope, double to,
+                                        double to_slope) const;
+  [[nodiscard]] FingerEdge followed(const Peak& peak, const cv::Mat& bgr, const BorderCurve& border) const;
+
   // Of an edge from the border to a rail, in columns.
   [[nodiscard]] int shift(double slope, int rail) const noexcept;
   // Where a rail's first column stands in Steps.
@@ -76,13 +88,13 @@ class CrossingFinder {
   }
 
   BorderStrip::Layout layout_;
-  int margin_;       // of Steps, in columns
-  std::size_t row_;  // of Steps: columns and both margins
-  Steps rises_;      // of the foreground at each cell
-  Steps falls_;
-  std::vector<Step> sums_;  // of one slope
-  std::vector<Step> best_;
-  std::vector<Step> best_slope_;
+  int margin_;        // of Steps, in columns
+  std::size_t row_;   // of Steps: columns and both margins
+  Steps left_steps_;  // how much each cell looks like a finger's left edge
+  Steps right_steps_;
+  Steps sums_;  // of one slope; a row without margins, as the next ones
+  Steps best_;  // weighted
+  Steps best_slope_;
   std::vector<Peak> candidates_;
   Crossings crossings_;
 };

@@ -11,14 +11,19 @@
 //   guesses    rows where its tip may be                           tip_search
 //   contour    the tip's outline                                   tip_contour
 //   tip        the outline's foremost point                        tip_shape
+//   mirror     does its mirror image begin there                   mirror_evidence
 #pragma once
 
 #include <cstdint>
 #include <opencv2/core/mat.hpp>
+#include <optional>
 #include <vector>
 
 #include "calibration/border_curve.hpp"
+#include "calibration/rig_camera.hpp"
+#include "common/clock.hpp"
 #include "common/units.hpp"
+#include "finger/background_learner.hpp"
 #include "finger/background_strip.hpp"
 #include "finger/crossing.hpp"
 #include "finger/finger.hpp"
@@ -32,12 +37,22 @@ class FingerDetector {
   // if it is no such picture or too small.
   FingerDetector(const BorderCurve& border, const cv::Mat& empty);
 
+  // With the background that was kept, or none: then adapt() learns it, and until it has, there are no fingers. Throws
+  // std::invalid_argument if pictures of this size are too small.
+  FingerDetector(const BorderCurve& border, ImageSize image, const std::optional<BorderStrip>& background);
+
+  // With the camera the detector also says what the screen's mirror image tells of each finger.
+  void know_camera(const RigCamera& camera) { camera_ = camera; }
+
   // From the strongest crossing on. `bgr` must be CV_8UC3 of the size of `empty`; other pictures hold no finger and are
   // counted. The result lives until the next call. Allocates nothing.
   const Fingers& detect(const cv::Mat& bgr);
 
-  // After detect() of a frame of a live camera: learns how the rig looks now.
-  void adapt();
+  // After detect() of a live camera's frame that can be believed: learns how the rig looks now. `now` never decreases.
+  // Allocates nothing.
+  void adapt(Timestamp now);
+  // Until it knows how the rig looks, and while everything looks different, what detect() finds means nothing.
+  [[nodiscard]] const BackgroundLearner& background() const noexcept { return learner_; }
 
   // The outlines of the last frame's fingers, in their order.
   [[nodiscard]] const boost::container::static_vector<TipContour, max_contacts>& contours() const noexcept {
@@ -52,9 +67,11 @@ class FingerDetector {
 
   BorderCurve border_;
   ImageSize image_;
+  std::optional<RigCamera> camera_;
   BorderStrip::Layout layout_;
   BorderStrip strip_;
   BackgroundStrip background_;
+  BackgroundLearner learner_;
   CrossingFinder crossing_finder_;
   EdgeMap edges_;
   FingerColours colours_;

@@ -20,7 +20,11 @@ constexpr double farthest = 2.1;
 constexpr double centre_behind_tip = 0.95;
 constexpr float half_step = 15;              // grey levels of an edge of strength 0.5
 constexpr float inside_distance2 = 60 * 60;  // squared distance from the finger's colours at which an edge counts half
-static double guess_weight = getenv("GW") ? atof(getenv("GW")) : 1.0;
+constexpr double guess_weight = 0.5;         // of what the search along the finger saw
+// A rim of skin about a nail is up to so wide, in half widths, looks on the whole so much like finger, and has an edge.
+constexpr float rim_width = 0.25F;
+constexpr float rim_likeness = 0.5F;
+constexpr float rim_edge = 0.3F;
 constexpr double inside_share = 0.7;  // how far out the tip's own colours are learned
 constexpr std::size_t margin = 4;     // samples before and after a ray's radii
 
@@ -43,6 +47,7 @@ TipContourFinder::TipContourFinder()
     : ray_(most_radii + 2 * margin),
       edge_(TipContour::angles * most_radii),
       sharp_(edge_.size()),
+      like_(edge_.size()),
       cost_(edge_.size()),
       path_cost_(edge_.size()),
       came_from_(edge_.size()) {
@@ -61,6 +66,21 @@ void TipContourFinder::sample_ray(const cv::Mat& bgr, const Centre& centre, cons
     ray_[i] = colour_at(bgr, std::clamp(static_cast<float>(centre.u + r * sine), 0.0F, last_u),
                         std::clamp(static_cast<float>(centre.v + r * cosine), 0.0F, last_v));
   }
+}
+
+// The edge of a nail or of polish may be stronger than that of the rim of skin about it.
+std::size_t TipContourFinder::outer_edge(std::size_t row, std::size_t inner, std::size_t last) const {
+  const float* const like = like_.data() + row * most_radii;
+  const float* const edge = edge_.data() + row * most_radii;
+  std::size_t best = inner;
+  float sum = 0;
+  for (std::size_t i = inner + 1; i <= last; ++i) {
+    sum += like[i];
+    if (sum < rim_likeness * static_cast<float>(i - inner)) break;
+    if (i < inner + 2 || edge[i] < rim_edge || edge[i] < edge[i - 1] || edge[i] < edge[i + 1]) continue;
+    best = i;
+  }
+  return best;
 }
 
 TipContour TipContourFinder::trace(const cv::Mat& bgr, const Centre& centre, const Grid& grid, FingerColours& colours) {
@@ -82,11 +102,13 @@ TipContour TipContourFinder::trace(const cv::Mat& bgr, const Centre& centre, con
     float* const cost = cost_.data() + rows * most_radii;
     float* const edge = edge_.data() + rows * most_radii;
     float* const sharp = sharp_.data() + rows * most_radii;
+    float* const like = like_.data() + rows * most_radii;
     float region = 0;
     for (std::size_t i = 0; i < radii; ++i) {
       const std::size_t at = i + margin;
       const double r = nearest * a + static_cast<double>(i) * grid.radius_step_px;
-      region += step * colours.likeness(ray_[at], static_cast<int>(std::lround(centre.v + r * cosine)));
+      like[i] = colours.likeness(ray_[at], static_cast<int>(std::lround(centre.v + r * cosine)));
+      region += step * like[i];
       sharp[i] = distance2(mean(ray_[at - 1], ray_[at - 2]), mean(ray_[at + 1], ray_[at + 2]));
       const Colour inside = mean(ray_[at - near], ray_[at - far]);
       const Colour outside = mean(ray_[at + near], ray_[at + far]);
@@ -125,6 +147,9 @@ TipContour TipContourFinder::trace(const cv::Mat& bgr, const Centre& centre, con
   contour.score = -static_cast<double>(end[i]) / static_cast<double>(rows);
   std::array<double, TipContour::angles> radius{};
   for (std::size_t row = rows; row-- > 0;) {
+    const std::size_t on_path = i;
+    if (grid.angle_step == 1)
+      i = outer_edge(row, i, std::min(radii - 3, i + static_cast<std::size_t>(rim_width / step)));
     // To parts of a step: the centre of the change of colour about the path.
     const float* const sharp = sharp_.data() + row * most_radii;
     const std::size_t first = i > 1 ? i - 2 : 0;
@@ -140,7 +165,7 @@ TipContour TipContourFinder::trace(const cv::Mat& bgr, const Centre& centre, con
     const double exact = sum > 0 ? static_cast<double>(moment / sum) : static_cast<double>(i);
     radius[row * grid.angle_step] = nearest * a + exact * grid.radius_step_px;
     contour.edge[row * grid.angle_step] = edge_[row * most_radii + i];
-    i = came_from_[row * most_radii + i];
+    i = came_from_[row * most_radii + on_path];
   }
   for (std::size_t k = 0; k < TipContour::angles; ++k) {
     if (k % grid.angle_step != 0) {

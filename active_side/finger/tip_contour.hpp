@@ -42,6 +42,7 @@ class TipContourFinder {
   };
 
   TipContour follow(const cv::Mat& bgr, const TipGuess& guess, FingerColours& colours);
+  [[nodiscard]] std::size_t outer_edge(std::size_t row, std::size_t inner, std::size_t last) const;
   TipContour trace(const cv::Mat& bgr, const Centre& centre, const Grid& grid, FingerColours& colours);
   void sample_ray(const cv::Mat& bgr, const Centre& centre, const Grid& grid, std::size_t angle, std::size_t radii);
   void learn_tip(const cv::Mat& bgr, const Centre& centre, const std::array<double, TipContour::angles>& radius,
@@ -51,6 +52,7 @@ class TipContourFinder {
   std::vector<Colour> ray_;  // colours along one angle, with a margin at both ends
   std::vector<float> edge_;  // angles by radii
   std::vector<float> sharp_;
+  std::vector<float> like_;
   std::vector<float> cost_;
   std::vector<float> path_cost_;
   std::vector<std::uint8_t> came_from_;

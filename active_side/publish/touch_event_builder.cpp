@@ -60,7 +60,8 @@ void TouchEventBuilder::add_contact(const BoxedContact& boxed, GridShape grid) {
                   .grid = grid,
                   .body = boxed.body,
                   .screen = boxed.screen,
-                  .speed_mm_s = boxed.speed_mm_s};
+                  .speed_mm_s = boxed.speed_mm_s,
+                  .gesture = boxed.gesture};
   if (boxed.phase == Phase::up) {
     contact.phase = Phase::up;
     add_transition(contact, Phase::up);

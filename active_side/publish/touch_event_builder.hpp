@@ -18,6 +18,7 @@ struct BoxedContact {
   double speed_mm_s = 0;
   std::uint16_t box = 0;  // 1..columns*rows
   BodyPoint body;
+  Gesture gesture = Gesture::none;
 };
 
 using BoxedContacts = boost::container::static_vector<BoxedContact, max_contacts>;

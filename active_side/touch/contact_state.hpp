@@ -21,6 +21,8 @@ struct ContactState {
   ScreenPoint screen;
   double speed_mm_s = 0;
   Timestamp frame_time;  // of the frame in which this was seen
+  double touching = 1;   // the probability that it still touches in the present frame; low while its end is uncertain
+  Gesture gesture = Gesture::none;  // so far; with `up`, what it was
 };
 
 using ContactStates = boost::container::static_vector<ContactState, max_contacts>;

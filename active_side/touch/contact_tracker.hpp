@@ -4,48 +4,98 @@
 #include <array>
 #include <boost/container/static_vector.hpp>
 #include <cstdint>
+#include <optional>
 
 #include "common/clock.hpp"
 #include "common/messages.hpp"
+#include "touch/assignment.hpp"
+#include "touch/contact_filter.hpp"
 #include "touch/contact_state.hpp"
+#include "touch/finger_observation.hpp"
+#include "touch/one_euro_filter.hpp"
 
 namespace telehug {
 
 struct TrackerOptions {
-  // A point farther than this from where a contact was belongs to another finger: at 30 frames a second a hand that
-  // moves fast (1 m/s) goes 33 mm from one frame to the next.
+  // The thesis' detector knows no hovering: every finger that it finds touches, at the place where it is found. Nothing
+  // is predicted, weighed or smoothed then.
+  bool every_finger_touches = false;
+  // A point farther than this from where a finger is expected belongs to another finger: at 30 frames a second a hand
+  // that moves fast (1 m/s) goes 33 mm from one frame to the next. Along the line through the camera's foot, where a
+  // change of height moves it, three times as far.
   double gate_mm = 40;
-  // A contact whose finger is not seen is held at its last place, and ends with the first of these two.
+  // A contact whose finger is not seen is held at its last place, and ends with the first of these two; or before,
+  // where it more likely was lifted out of sight.
   int up_after_missed_frames = 3;
-  Duration up_after = 100ms;  // since it was last seen
+  Duration up_after = 100ms;            // since it was last seen
+  Duration up_after_disturbed = 300ms;  // likewise, while the scene is disturbed
+  // Probabilities of touching.
+  double down_above = 0.65;
+  double up_below = 0.4;
+  // A finger that touched so surely and is not seen may be found again in the next frame: its contact waits for that.
+  double wait_above = 0.85;
+  CameraFoot camera = {};
+  ContactFilterOptions filter = {};
+  OneEuroOptions smoothing = {};
 };
 
-// Gives the touch points of each frame identities that live from down to up. Up to max_contacts at a time; a frame's
-// points beyond that wait until a place is free. Allocates nothing.
+// A finger in front of the screen, at the place where it would be if it touched.
+struct HoveringFinger {
+  ScreenPoint screen;
+  double touching = 0;  // the probability that it touches
+};
+using HoveringFingers = boost::container::static_vector<HoveringFinger, max_contacts>;
+
+// Follows the fingers of each frame from first sight to last, decides which of them touch, and gives each touch an
+// identity that lives from down to up. Up to max_contacts fingers at a time; a frame's fingers beyond that wait until a
+// place is free. Allocates nothing.
+//
+// What waiting buys: with a mirror image a touch is down in the frame in which it begins or in the next one, without
+// one when the approach has ended, in the next one. It is up in the frame in which the finger leaves, or the next one.
+// A hand that brakes softly and rests a few millimetres off a matt screen can't be told from a touch by its motion,
+// only by its width, and then only from about 10 mm on: see down_above.
 class ContactTracker {
  public:
   explicit ContactTracker(const TrackerOptions& options = {}) : options_(options) {}
 
   // The contacts of this frame, in the order of their ids: every one that lives once (down, then move, also while it is
   // held, with the time at which it was last seen), and those that end now (up, with this frame's time). The result
-  // lives until the next call. `frame_time` must rise; with no frames at all (camera lost), call it with no points and
-  // the present time, so that contacts end.
-  const ContactStates& update(const ScreenPoints& points, Timestamp frame_time);
+  // lives until the next call. `frame_time` must rise; with no frames at all (camera lost), call it with no fingers and
+  // the present time, so that contacts end. In a disturbed scene contacts move, but none begins, and none ends unless
+  // its finger is gone for long.
+  const ContactStates& update(const FingerObservations& fingers, Timestamp frame_time, Scene scene = Scene::steady);
+
+  // Of the last frame: fingers that are seen but don't touch.
+  [[nodiscard]] const HoveringFingers& hovering() const noexcept { return hovering_; }
 
  private:
   struct Track {
-    ContactState state;  // its time is when the finger was last seen
+    ContactFilter filter;
+    OneEuroFilter smoothing;
+    ScreenPoint seen;  // as observed
+    Timestamp seen_at;
+    double x_mm_s = 0;  // of `seen`
+    double y_mm_s = 0;
     int missed_frames = 0;
+    std::optional<ContactState> contact;
+    int widths_learned = 0;
   };
   using Taken = std::array<bool, max_contacts>;
 
-  void match(const ScreenPoints& points, Timestamp frame_time, Taken& point_taken, Taken& track_taken);
-  void end_or_hold(Timestamp frame_time, const Taken& track_taken);
-  void begin(const ScreenPoints& points, Timestamp frame_time, const Taken& point_taken);
+  void forget_ended();
+  [[nodiscard]] double cost(const Track& track, const ScreenPoint& point, double seconds) const;
+  void follow(Track& track, const FingerObservation& finger, Timestamp frame_time, Scene scene);
+  void miss(Track& track, Timestamp frame_time, Scene scene);
+  void begin(const FingerObservation& finger, Timestamp frame_time);
+  void touch_down(Track& track, Timestamp frame_time);
+  void learn_width(Track& track);
 
   TrackerOptions options_;
   boost::container::static_vector<Track, max_contacts> tracks_;
   ContactStates states_;
+  HoveringFingers hovering_;
+  FingerWidth known_width_;
+  std::optional<Timestamp> steady_frame_;  // the last one, if it was steady
   std::uint32_t next_id_ = 1;
 };
 

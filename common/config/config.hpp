@@ -31,6 +31,8 @@ struct CameraConfig {
   int width_px = 1280;
   int height_px = 720;
   int fps = 30;
+  std::string preset = "auto";  // keep, thesis, auto
+  int power_line_hz = 0;        // 0, 50, 60
 };
 
 struct RigConfig {
@@ -42,6 +44,13 @@ struct TouchConfig {
   std::string detector = "default";  // default, thesis
   std::string model = "default";     // default, thesis
   int up_after_ms = 70;
+};
+
+struct LocalTouchConfig {
+  bool uinput = false;
+  bool tuio = false;
+  std::string tuio_host = "127.0.0.1";
+  int tuio_port = 3333;
 };
 
 struct BodyMapConfig {
@@ -56,6 +65,7 @@ struct ActiveConfig {
   CameraConfig camera;
   RigConfig rig;
   TouchConfig touch;
+  LocalTouchConfig local_touch;
   BodyMapConfig body_map;
   PeerConfig peer;
   int heartbeat_timeout_ms = 250;  // [peer]

@@ -83,7 +83,8 @@ std::string place_of(const std::vector<Key>& keys, std::initializer_list<std::st
 std::vector<Key> keys_of(ActiveConfig& c) {
   Rows rows{
       {"camera", "source", &c.camera.source, "", parsed_by(parse_camera_source),
-       "\"webcam\", \"replay:DIR\" (a recording) or \"virtual\" (a simulated rig)."},
+       "\"webcam\", \"replay:DIR\" (a recording), \"virtual\" (a simulated rig) or \"virtual:SEED\" (one drawn at "
+       "random)."},
       {"camera",
        "device",
        &c.camera.device,
@@ -93,6 +94,11 @@ std::vector<Key> keys_of(ActiveConfig& c) {
       {"camera", "width_px", &c.camera.width_px, "px", Range{160, 7680}, "Width of the camera's frames."},
       {"camera", "height_px", &c.camera.height_px, "px", Range{120, 4320}, "Height of the camera's frames."},
       {"camera", "fps", &c.camera.fps, "frames/s", Range{1, 240}, "Frame rate asked of the camera."},
+      {"camera", "preset", &c.camera.preset, "", OneOf{{"auto", "thesis", "keep"}},
+       "Settings of the camera while it is open. auto: what `telehug-active camera tune` found, if anything; thesis: "
+       "exposure, white balance and focus fixed; keep: as they are."},
+      {"camera", "power_line_hz", &c.camera.power_line_hz, "Hz", Range{0, 60},
+       "What the light flickers with, so that pictures don't: 50 or 60; 0: as the camera is."},
 
       {"rig",
        "calibration_file",
@@ -115,6 +121,16 @@ std::vector<Key> keys_of(ActiveConfig& c) {
        "How a finger in the image becomes a point on the screen; default: whatever the calibration holds."},
       {"touch", "up_after_ms", &c.touch.up_after_ms, "ms", Range{0, 1000},
        "How long a finger must be unseen before its touch ends."},
+
+      {"local_touch",
+       "uinput",
+       &c.local_touch.uinput,
+       "",
+       {},
+       "true: the monitor is a touchscreen of this PC, too; needs the right to write /dev/uinput."},
+      {"local_touch", "tuio", &c.local_touch.tuio, "", {}, "true: touches are sent as TUIO 1.1 cursors."},
+      {"local_touch", "tuio_host", &c.local_touch.tuio_host, "", {}, "Where TUIO is sent to; it is not encrypted."},
+      {"local_touch", "tuio_port", &c.local_touch.tuio_port, "", Range{1, 65535}, "And to which UDP port."},
 
       {"body_map",
        "picture",
@@ -174,6 +190,9 @@ std::vector<Fault> impossible_combinations(const ActiveConfig& c, const std::vec
         {place_of(keys, {"body_map.hold_ms", "body_map.max_age_ms"}),
          fmt::format("body_map.hold_ms ({}) must not exceed body_map.max_age_ms ({}): a held face would be refused",
                      c.body_map.hold_ms, c.body_map.max_age_ms)});
+  }
+  if (c.camera.power_line_hz != 0 && c.camera.power_line_hz != 50 && c.camera.power_line_hz != 60) {
+    faults.push_back({place_of(keys, {"camera.power_line_hz"}), "camera.power_line_hz must be 0, 50 or 60"});
   }
   // YUYV shares the colour of two neighbouring pixels.
   if (c.camera.width_px % 2 != 0) {

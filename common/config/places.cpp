@@ -31,6 +31,14 @@ std::filesystem::path rig_file(const RigConfig& config) {
   return config.calibration_file.empty() ? state_folder() / "rig.toml" : std::filesystem::path(config.calibration_file);
 }
 
+std::filesystem::path tuned_camera_file(const RigConfig& config) {
+  return rig_file(config).replace_filename("camera.toml");
+}
+
+std::filesystem::path camera_before_file(const RigConfig& config) {
+  return rig_file(config).replace_filename("camera-before.toml");
+}
+
 std::filesystem::path jacket_profile_file(const JacketConfig& config) {
   const std::filesystem::path installed = std::filesystem::path(TELEHUG_DATA_DIR) / "jackets";
   if (config.profile.empty()) return installed / "duemilanove-16.toml";

@@ -13,6 +13,11 @@ namespace telehug {
 // $XDG_STATE_HOME/telehug, /var/lib/telehug (root), ~/.local/state/telehug that applies.
 [[nodiscard]] std::filesystem::path rig_file(const RigConfig& config);
 
+// Settings of the camera, beside the calibration file: what `telehug-active camera tune` found, and, while telehug has
+// changed some, what they were before.
+[[nodiscard]] std::filesystem::path tuned_camera_file(const RigConfig& config);
+[[nodiscard]] std::filesystem::path camera_before_file(const RigConfig& config);
+
 // The jacket profile: as configured, else the installed one of the 16-motor jacket. A relative path that does not
 // exist from here, such as "duemilanove-16.toml", is looked for among the installed profiles.
 [[nodiscard]] std::filesystem::path jacket_profile_file(const JacketConfig& config);

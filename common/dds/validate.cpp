@@ -19,6 +19,9 @@ bool within(double value, double limit) {
 bool known(Phase phase) {
   return phase == Phase::down || phase == Phase::move || phase == Phase::up;
 }
+bool known(Gesture gesture) {
+  return static_cast<std::uint8_t>(gesture) < gesture_count;
+}
 bool known(Side side) {
   return side == Side::active || side == Side::passive;
 }
@@ -40,6 +43,7 @@ bool printable(std::string_view text) {
 
 Fault validate(const Contact& contact) {
   if (!known(contact.phase)) return "a contact's phase is unknown";
+  if (!known(contact.gesture)) return "a contact's gesture is unknown";
   const GridShape grid = contact.grid;
   if (grid.columns < 1 || grid.columns > max_grid_boxes_per_side || grid.rows < 1 ||
       grid.rows > max_grid_boxes_per_side) {

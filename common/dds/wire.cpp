@@ -76,6 +76,7 @@ void contact_to_wire(const Contact& contact, v1::Contact& wire) {
   wire.screen_y_mm(contact.screen.y_mm);
   wire.speed_mm_s(contact.speed_mm_s);
   wire.strength(contact.strength);
+  wire.gesture(wire_enum<v1::Gesture>(contact.gesture));
 }
 
 Contact contact_from_wire(const v1::Contact& wire) {
@@ -86,7 +87,8 @@ Contact contact_from_wire(const v1::Contact& wire) {
           .body = {.x_fh = wire.body_x_fh(), .y_fh = wire.body_y_fh()},
           .screen = {.x_mm = wire.screen_x_mm(), .y_mm = wire.screen_y_mm()},
           .speed_mm_s = wire.speed_mm_s(),
-          .strength = wire.strength()};
+          .strength = wire.strength(),
+          .gesture = read_enum<Gesture>(wire.gesture())};
 }
 
 }  // namespace

@@ -70,13 +70,13 @@ Status decode_png(std::span<const std::uint8_t> bytes, cv::Mat& bgr) {
   return Done{};
 }
 
-// Calls `write` with a file of another name and gives it its name when all went well.
-template <typename Write>
-Status write_file(const std::filesystem::path& path, Write write) {
+// Writes a file of another name and gives it its name when all went well.
+Status write_file(const std::filesystem::path& path, std::span<const std::uint8_t> bytes) {
   const std::filesystem::path unfinished = path.string() + fmt::format(".{}.part", ::getpid());
   File file{std::fopen(unfinished.c_str(), "wb"), &std::fclose};
   if (!file) return system_error("write", path, errno);
-  Status written = write(file.get());
+  Status written = Done{};
+  if (std::fwrite(bytes.data(), 1, bytes.size(), file.get()) != bytes.size()) written = Error{std::strerror(errno)};
   if (std::fclose(file.release()) != 0 && written) written = Error{std::strerror(errno)};
   std::error_code code;
   if (written) std::filesystem::rename(unfinished, path, code);
@@ -107,7 +107,7 @@ Result<cv::Mat> read_picture(const std::filesystem::path& path) {
   return bgr;
 }
 
-Status write_png(const std::filesystem::path& path, const cv::Mat& picture) {
+Status write_png(const std::filesystem::path& path, const cv::Mat& picture, const std::optional<PngNote>& note) {
   if (picture.empty() || (picture.type() != CV_8UC3 && picture.type() != CV_8UC1)) {
     return Error{fmt::format("can't write {}: there is no 8-bit grey or BGR picture", path.string())};
   }
@@ -116,12 +116,21 @@ Status write_png(const std::filesystem::path& path, const cv::Mat& picture) {
   png.image.height = static_cast<png_uint_32>(picture.rows);
   png.image.format = picture.channels() == 3 ? PNG_FORMAT_BGR : PNG_FORMAT_GRAY;
   png.image.flags = PNG_IMAGE_FLAG_FAST;
-  return write_file(path, [&](std::FILE* file) -> Status {
-    if (png_image_write_to_stdio(&png.image, file, 0, picture.data, static_cast<png_int_32>(picture.step), nullptr)) {
-      return Done{};
-    }
-    return Error{png.image.message};
-  });
+  std::vector<std::uint8_t> bytes(PNG_IMAGE_PNG_SIZE_MAX(png.image));
+  png_alloc_size_t size = bytes.size();
+  if (png_image_write_to_memory(&png.image, bytes.data(), &size, 0, picture.data, static_cast<png_int_32>(picture.step),
+                                nullptr) == 0) {
+    return Error{fmt::format("can't write {}: {}", path.string(), png.image.message)};
+  }
+  bytes.resize(size);
+  if (note) insert_png_note(bytes, *note);
+  return write_file(path, bytes);
+}
+
+Result<std::optional<std::string>> read_png_note(const std::filesystem::path& path, std::string_view keyword) {
+  std::vector<std::uint8_t> bytes;
+  if (auto read = read_bytes(path, bytes); !read) return read.error();
+  return find_png_note(bytes, keyword);
 }
 
 Status write_jpeg(const std::filesystem::path& path, const cv::Mat& picture, int quality) {
@@ -130,10 +139,7 @@ Status write_jpeg(const std::filesystem::path& path, const cv::Mat& picture, int
   }
   const Result<std::vector<std::uint8_t>> jpeg = encode_jpeg(picture, quality);
   if (!jpeg) return Error{fmt::format("can't write {}: {}", path.string(), jpeg.error().message)};
-  return write_file(path, [&](std::FILE* file) -> Status {
-    if (std::fwrite(jpeg->data(), 1, jpeg->size(), file) == jpeg->size()) return Done{};
-    return Error{std::strerror(errno)};
-  });
+  return write_file(path, *jpeg);
 }
 
 }  // namespace telehug

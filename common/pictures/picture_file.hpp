@@ -4,10 +4,14 @@
 #include <cstdint>
 #include <filesystem>
 #include <opencv2/core/mat.hpp>
+#include <optional>
+#include <string>
+#include <string_view>
 #include <vector>
 
 #include "common/result.hpp"
 #include "pictures/jpeg_decoder.hpp"
+#include "pictures/png_note.hpp"
 
 namespace telehug {
 
@@ -27,7 +31,11 @@ class PictureReader {
 Result<cv::Mat> read_picture(const std::filesystem::path& path);
 
 // Writes CV_8UC3 BGR or CV_8UC1 grey as PNG. The file appears under its name when it is complete.
-Status write_png(const std::filesystem::path& path, const cv::Mat& picture);
+Status write_png(const std::filesystem::path& path, const cv::Mat& picture,
+                 const std::optional<PngNote>& note = std::nullopt);
+
+// The text that write_png() put into the file under this keyword; nothing if there is none.
+Result<std::optional<std::string>> read_png_note(const std::filesystem::path& path, std::string_view keyword);
 
 // Writes CV_8UC3 BGR as JPEG (4:2:0) of `quality` 1..100. The file appears under its name when it is complete.
 Status write_jpeg(const std::filesystem::path& path, const cv::Mat& picture, int quality = 92);

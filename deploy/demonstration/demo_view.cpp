@@ -60,6 +60,7 @@ void DemoView::show(const nlohmann::json& event) {
     touched_box_ = phase == "up" ? 0 : box;
     last_touch_ = fmt::format("contact {} {:<4} box {:>2} at {:.0f}, {:.0f} mm", event.at("contact").get<int>(), phase,
                               box, event.at("x_mm").get<double>(), event.at("y_mm").get<double>());
+    if (const std::string gesture = event.value("gesture", "none"); gesture != "none") last_touch_ += ", " + gesture;
     if (news) say("touched  " + last_touch_);
   } else if (kind == "felt" && !active) {
     last_felt_ = fmt::format("contact {} box {:>2} {} at motors {}", event.at("contact").get<int>(),

@@ -18,7 +18,8 @@ inline Contact example_contact(std::uint32_t id, Phase phase = Phase::move) {
           .body = {.x_fh = -0.25, .y_fh = 0.75},
           .screen = {.x_mm = 210.5, .y_mm = 180.25},
           .speed_mm_s = 31.5,
-          .strength = 0.5};
+          .strength = 0.5,
+          .gesture = Gesture::stroke};
 }
 
 inline TouchEvent example_touch() {

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // A webcam as the kernel's V4L2 shows it: formats that are answered with the nearest, buffers that are mapped, queued
-// and dequeued in order, frames that are lost while no buffer is queued, unplugging, other users.
+// and dequeued in order, frames that are lost while no buffer is queued, unplugging, other users. It may be open more
+// than once; its controls outlive who set them, but not an unplugging. Those that an automatic rules refuse to be set.
 #pragma once
 
 #include <linux/videodev2.h>
@@ -39,6 +40,23 @@ class FakeV4l2 final : public V4l2Calls {
   std::uint32_t buffers_granted = 4;
   std::function<void()> while_waiting;  // called once at the next wait() for a picture
 
+  struct Control {
+    std::uint32_t id = 0;
+    std::string name;
+    std::uint32_t type = V4L2_CTRL_TYPE_INTEGER;
+    std::int32_t minimum = 0;
+    std::int32_t maximum = 0;
+    std::int32_t default_value = 0;
+    std::int32_t value = 0;
+    std::uint32_t ruled_by = 0;  // an automatic ...
+    std::int32_t free_at = 0;    // ... and its value at which it rules nothing
+    std::uint32_t flags = 0;
+  };
+  std::vector<Control> controls;  // ids rise
+  std::uint32_t refused = 0;      // a control that can't be set
+  int control_changes = 0;
+  [[nodiscard]] std::int32_t control(std::uint32_t id) const { return find(id)->value; }
+
   // What was seen of its user.
   int opened = 0;
   int open_now = 0;
@@ -59,7 +77,11 @@ class FakeV4l2 final : public V4l2Calls {
     done_.push_back(queued_.front());
     queued_.pop_front();
   }
-  void unplug() { plugged = false; }
+  void unplug() {
+    plugged = false;
+    for (Control& known : controls)
+      known.value = known.default_value;
+  }
   [[nodiscard]] std::size_t queued() const { return queued_.size(); }
 
   int open(const std::string& path) override {
@@ -67,15 +89,15 @@ class FakeV4l2 final : public V4l2Calls {
     if (open_error != 0) return -open_error;
     ++opened;
     ++open_now;
-    return descriptor;
+    return next_descriptor_++;
   }
   void close(int fd) override {
-    if (fd != descriptor) return;
+    if (!known(fd)) return;
     --open_now;
-    forget_buffers();
+    if (fd == streamer_) forget_buffers();
   }
   int ioctl(int fd, unsigned long request, void* argument) override {
-    if (fd != descriptor || open_now == 0) return -EBADF;
+    if (!known(fd) || open_now == 0) return -EBADF;
     if (!plugged) return -ENODEV;
     switch (request) {
       case VIDIOC_QUERYCAP:
@@ -85,7 +107,14 @@ class FakeV4l2 final : public V4l2Calls {
       case VIDIOC_S_PARM:
         return set_rate(*static_cast<v4l2_streamparm*>(argument));
       case VIDIOC_REQBUFS:
+        streamer_ = fd;
         return request_buffers(*static_cast<v4l2_requestbuffers*>(argument));
+      case VIDIOC_QUERYCTRL:
+        return query_control(*static_cast<v4l2_queryctrl*>(argument));
+      case VIDIOC_G_CTRL:
+        return get_control(*static_cast<v4l2_control*>(argument));
+      case VIDIOC_S_CTRL:
+        return set_control(*static_cast<v4l2_control*>(argument));
       case VIDIOC_QUERYBUF:
         return query_buffer(*static_cast<v4l2_buffer*>(argument));
       case VIDIOC_QBUF:
@@ -102,7 +131,7 @@ class FakeV4l2 final : public V4l2Calls {
   }
   void* map(int fd, std::size_t length, std::size_t offset) override {
     const std::size_t index = offset / offset_step;
-    if (fd != descriptor || index >= slots_.size() || length != slots_[index].memory.size()) return nullptr;
+    if (!known(fd) || index >= slots_.size() || length != slots_[index].memory.size()) return nullptr;
     ++mapped_now;
     return slots_[index].memory.data();
   }
@@ -120,7 +149,7 @@ class FakeV4l2 final : public V4l2Calls {
   }
 
  private:
-  static constexpr int descriptor = 42;
+  static constexpr int first_descriptor = 42;
   static constexpr std::size_t offset_step = 1 << 20;
 
   struct Slot {
@@ -131,6 +160,49 @@ class FakeV4l2 final : public V4l2Calls {
     Timestamp time;
     bool with_driver = false;
   };
+
+  [[nodiscard]] bool known(int fd) const { return fd >= first_descriptor && fd < next_descriptor_; }
+
+  [[nodiscard]] std::vector<Control>::const_iterator find(std::uint32_t id) const {
+    return std::find_if(controls.begin(), controls.end(), [&](const Control& control) { return control.id == id; });
+  }
+  [[nodiscard]] bool ruled(const Control& control) const {
+    const auto automatic = find(control.ruled_by);
+    return automatic != controls.end() && automatic->value != control.free_at;
+  }
+  int query_control(v4l2_queryctrl& query) const {
+    const std::uint32_t id = query.id & ~V4L2_CTRL_FLAG_NEXT_CTRL;
+    const bool next = id != query.id;
+    const auto control = std::find_if(controls.begin(), controls.end(), [&](const Control& candidate) {
+      return next ? candidate.id > id : candidate.id == id;
+    });
+    if (control == controls.end()) return -EINVAL;
+    query = {};
+    query.id = control->id;
+    query.type = control->type;
+    std::strncpy(reinterpret_cast<char*>(query.name), control->name.c_str(), sizeof(query.name) - 1);
+    query.minimum = control->minimum;
+    query.maximum = control->maximum;
+    query.step = 1;
+    query.default_value = control->default_value;
+    query.flags = control->flags | (ruled(*control) ? V4L2_CTRL_FLAG_INACTIVE : 0U);
+    return 0;
+  }
+  int get_control(v4l2_control& wanted) const {
+    const auto control = find(wanted.id);
+    if (control == controls.end()) return -EINVAL;
+    wanted.value = control->value;
+    return 0;
+  }
+  int set_control(const v4l2_control& wanted) {
+    const auto control = find(wanted.id);
+    if (control == controls.end()) return -EINVAL;
+    if (wanted.value < control->minimum || wanted.value > control->maximum) return -ERANGE;
+    if (ruled(*control) || wanted.id == refused) return -EIO;
+    controls[static_cast<std::size_t>(control - controls.begin())].value = wanted.value;
+    ++control_changes;
+    return 0;
+  }
 
   int query(v4l2_capability& answer) const {
     answer.capabilities = capabilities | V4L2_CAP_DEVICE_CAPS | V4L2_CAP_VIDEO_CAPTURE;  // of all of its devices
@@ -212,6 +284,8 @@ class FakeV4l2 final : public V4l2Calls {
   }
 
   FakeClock& clock_;
+  int next_descriptor_ = first_descriptor;
+  int streamer_ = -1;
   std::size_t picture_bytes_ = 0;
   std::uint32_t sequence_ = 0;
   std::vector<Slot> slots_;

@@ -21,3 +21,5 @@ telehug_test(test_app_nobody_to_touch KIND integration SUBJECT ops
   SOURCES integration/app/nobody_to_touch_test.cpp DEPS running_pair telehug_pictures)
 telehug_test(test_app_bad_input KIND integration SUBJECT ops
   SOURCES integration/app/bad_input_test.cpp DEPS running_pair)
+telehug_test(test_app_local_touch KIND integration SUBJECT touch
+  SOURCES integration/app/local_touch_test.cpp DEPS running_pair PkgConfig::liblo)

@@ -3,18 +3,25 @@ telehug_test(test_calibration KIND unit SUBJECT touch
   SOURCES unit/calibration/calibration_file_test.cpp unit/calibration/screen_border_test.cpp
           unit/calibration/thesis_touch_model_test.cpp
   DEPS active_calibration opencv::imgproc)
-telehug_test(test_rig_solver KIND unit SUBJECT touch
-  SOURCES doubles/allocation_counter.cpp unit/calibration/border_choice_test.cpp
-          unit/calibration/calibration_policy_test.cpp unit/calibration/rig_calibration_file_test.cpp unit/calibration/rig_accuracy_test.cpp unit/calibration/rig_camera_test.cpp
-          unit/calibration/rig_solver_test.cpp unit/calibration/two_touch_calibration_test.cpp
+telehug_test(test_rig_solver KIND unit SUBJECT touch TIMEOUT 900
+  SOURCES doubles/allocation_counter.cpp unit/calibration/rig_accuracy_test.cpp unit/calibration/rig_camera_test.cpp
+          unit/calibration/rig_solver_test.cpp
   DEPS active_calibration)
+telehug_test(test_rig_calibration KIND unit SUBJECT touch TIMEOUT 900
+  SOURCES unit/calibration/border_choice_test.cpp unit/calibration/calibration_policy_test.cpp
+          unit/calibration/rig_calibration_file_test.cpp unit/calibration/two_touch_calibration_test.cpp
+  DEPS active_calibration)
+telehug_test(test_calibration_dot KIND unit SUBJECT touch SOURCES unit/calibration/calibration_dot_test.cpp
+  DEPS active_calibration opencv::imgproc)
 telehug_test(test_drift_watch KIND unit SUBJECT touch
   SOURCES doubles/allocation_counter.cpp unit/calibration/drift_watch_test.cpp DEPS active_calibration)
 telehug_test(test_finger KIND unit SUBJECT touch
   SOURCES doubles/allocation_counter.cpp unit/finger/aligned_patch_test.cpp unit/finger/finger_colour_test.cpp
-          unit/finger/finger_edges_test.cpp unit/finger/thesis_detector_test.cpp
-  DEPS active_finger opencv::imgproc)
+          unit/finger/finger_edges_test.cpp unit/finger/mirror_evidence_test.cpp
+          unit/finger/recorded_mirrors_test.cpp unit/finger/thesis_detector_test.cpp
+  DEPS active_finger telehug_pictures opencv::imgproc)
 telehug_test(test_touch KIND unit SUBJECT touch
-  SOURCES doubles/allocation_counter.cpp unit/touch/contact_tracker_test.cpp unit/touch/screen_points_test.cpp
+  SOURCES doubles/allocation_counter.cpp unit/touch/contact_tracker_test.cpp
+          unit/touch/gesture_recogniser_test.cpp unit/touch/screen_points_test.cpp
   DEPS active_touch active_calibration)
 telehug_test(test_eval KIND unit SUBJECT touch SOURCES unit/eval/touch_score_test.cpp DEPS active_eval)

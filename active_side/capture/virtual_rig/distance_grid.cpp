@@ -118,6 +118,8 @@ TriangleMesh DistanceGrid::surface(const std::vector<Limb>& limbs) const {
   TriangleMesh mesh;
   constexpr auto none = std::numeric_limits<std::uint32_t>::max();
   std::vector<std::uint32_t> vertex_of(values_.size(), none);
+  // The surface does not cross a cell whose corner is further away than its diagonal; distances are up to a fifth off.
+  const float surely_away = 2.2F * step_mm_;
   static constexpr std::array<std::array<int, 2>, 12> edges{
       {{0, 1}, {2, 3}, {4, 5}, {6, 7}, {0, 2}, {1, 3}, {4, 6}, {5, 7}, {0, 4}, {1, 5}, {2, 6}, {3, 7}}};
   const auto corner_place = [](int corner) {
@@ -127,6 +129,7 @@ TriangleMesh DistanceGrid::surface(const std::vector<Limb>& limbs) const {
   for (int z = 0; z + 1 < size_[2]; ++z) {
     for (int y = 0; y + 1 < size_[1]; ++y) {
       for (int x = 0; x + 1 < size_[0]; ++x) {
+        if (std::abs(at(x, y, z)) > surely_away) continue;
         std::array<float, 8> d{};
         int inside = 0;
         for (int corner = 0; corner < 8; ++corner) {
@@ -155,6 +158,7 @@ TriangleMesh DistanceGrid::surface(const std::vector<Limb>& limbs) const {
   for (int z = 1; z + 1 < size_[2]; ++z) {
     for (int y = 1; y + 1 < size_[1]; ++y) {
       for (int x = 1; x + 1 < size_[0]; ++x) {
+        if (std::abs(at(x, y, z)) > surely_away) continue;
         const bool here = at(x, y, z) < 0;
         for (int axis = 0; axis < 3; ++axis) {
           const cv::Vec3i e(axis == 0, axis == 1, axis == 2);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
 
 #include "capture/virtual_rig/surroundings.hpp"
@@ -102,6 +103,7 @@ cv::Rect HandShadow::finish(cv::Mat& factor) {
         sum[column] *= 1 - strength_ * shadow[column] * takes[column];
     }
   }
+  cv::sqrt(sum_, sum_);
   const cv::Rect full = cv::Rect(box.x * reduced, box.y * reduced, box.width * reduced, box.height * reduced);
   cv::resize(sum_, factor, full.size(), 0, 0, cv::INTER_LINEAR);
   const cv::Rect seen = full & cv::Rect({0, 0}, size_);

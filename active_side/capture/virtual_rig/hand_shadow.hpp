@@ -21,7 +21,8 @@ class HandShadow {
   void clear();
   void add(const std::vector<Limb>& limbs, const cv::Vec3f& origin, const PinholeCamera& camera);
 
-  // Where there may be shadow, and in `factor` (CV_32FC1 of that box) what linear light is multiplied with there.
+  // Where there may be shadow, and in `factor` (CV_32FC1 of that box) what coded light, the root of linear light, is
+  // multiplied with there.
   cv::Rect finish(cv::Mat& factor);
 
  private:

@@ -10,8 +10,8 @@
 namespace telehug {
 namespace {
 
-constexpr float finger_step_mm = 1;
-constexpr float hand_step_mm = 3;
+constexpr float finger_step_mm = 1.2F;
+constexpr float hand_step_mm = 3.5F;
 constexpr float patch_step_mm = 0.5F;
 
 // What the end of a finger does when it meets the screen, measured on a fine mesh of the end alone.

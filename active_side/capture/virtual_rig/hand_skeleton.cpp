@@ -146,7 +146,7 @@ class HandBuilder {
     const cv::Vec3f back = unit(joint - end);
     const cv::Vec3f nail = unit(hand.nail - back * back.dot(hand.nail));
     const float to_little = looks_.left ? -1.0F : 1.0F;
-    skeleton_.ends.push_back({end, back, nail, back.cross(nail) * to_little, mm(7.5F), 0.85F, 0.8F});
+    skeleton_.ends.push_back({end, back, nail, back.cross(nail) * to_little, mm(7.5F), 0.85F, 1.0F});
   }
 
   void add_finger(const cv::Vec3f& end, const cv::Vec3f& end_joint, const cv::Vec3f& middle_joint,
@@ -160,7 +160,7 @@ class HandBuilder {
                                     skeleton_.limbs.begin() + static_cast<std::ptrdiff_t>(first),
                                     skeleton_.limbs.begin() + static_cast<std::ptrdiff_t>(first) + 2);
     skeleton_.ring_finger_segment = skeleton_.limbs.back();
-    skeleton_.ends.push_back({end, tip.back, tip.nail, tip.side, skeleton_.limbs[first].a_radius_mm, flatness, 0.35F});
+    skeleton_.ends.push_back({end, tip.back, tip.nail, tip.side, skeleton_.limbs[first].a_radius_mm, flatness, 0.5F});
   }
 
   // The middle joint of the second finger lies where both of its bones reach, on the nail's side; bones that are too

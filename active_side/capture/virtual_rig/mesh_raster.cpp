@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <cstring>
 #include <limits>
 #include <utility>
 
@@ -42,8 +43,10 @@ Span span_of(const RasterVertex& a, const RasterVertex& b, const RasterVertex& c
 MeshRaster::MeshRaster(cv::Size size)
     : size_(size),
       blocks_across_((size.width + block_px - 1) / block_px),
-      outline_blocks_(static_cast<std::size_t>(blocks_across_ * ((size.height + block_px - 1) / block_px)), 0),
+      block_coverage_(static_cast<std::size_t>(blocks_across_ * ((size.height + block_px - 1) / block_px)), 0),
       covered_(static_cast<std::size_t>(size.area()), 0),
+      drawn_stride_(blocks_across_ * block_px),
+      drawn_(static_cast<std::size_t>(drawn_stride_ * size.height), 0),
       depth_mm_(static_cast<std::size_t>(size.area()), nothing_mm),
       pixels_(static_cast<std::size_t>(size.area())) {}
 
@@ -52,6 +55,7 @@ void MeshRaster::begin(const cv::Rect& box) {
   for (int v = box.y; v < box.y + box.height; ++v) {
     const auto first = static_cast<std::ptrdiff_t>(v) * size_.width + box.x;
     std::fill_n(depth_mm_.begin() + first, box.width, nothing_mm);
+    std::fill_n(drawn_.begin() + static_cast<std::ptrdiff_t>(v) * drawn_stride_, drawn_stride_, std::uint8_t{0});
   }
 }
 
@@ -71,33 +75,45 @@ void MeshRaster::draw(const RasterVertex& a, const RasterVertex& b, const Raster
     colour(a, b, c, row);
 }
 
+// 0: nothing drawn in this block of 8 x 8 pixels and one pixel around it, 1: everything, 2: some.
+int MeshRaster::coverage_of_block(int block_row, int block_column) const {
+  std::uint64_t all = ~std::uint64_t{0};
+  std::uint64_t any = 0;
+  for (int row = -1; row <= block_px; ++row) {
+    const int v = std::clamp(block_row * block_px + row, 0, size_.height - 1);
+    for (const int shift : {-1, 1}) {
+      const int u = std::clamp(block_column * block_px + shift, 0, drawn_stride_ - block_px);
+      std::uint64_t eight = 0;
+      std::memcpy(&eight, &drawn_[static_cast<std::size_t>(v * drawn_stride_ + u)], sizeof eight);
+      all &= eight;
+      any |= eight;
+    }
+  }
+  return any == 0 ? 0 : ~all == 0 ? 1 : 2;
+}
+
 void MeshRaster::find_outlines() {
-  std::fill(outline_blocks_.begin(), outline_blocks_.end(), std::uint8_t{0});
-  const auto drawn = [&](int v, int u) {
-    return depth_mm_[static_cast<std::size_t>(v) * static_cast<std::size_t>(size_.width) +
-                     static_cast<std::size_t>(u)] < nothing_mm;
-  };
-  const auto mark = [&](int v, int u) {
-    outline_blocks_[static_cast<std::size_t>(v / block_px * blocks_across_ + u / block_px)] = 1;
-  };
-  // Where it changes from a pixel to the next one, both and those around them may be covered in part.
-  for (int v = box_.y; v + 1 < box_.y + box_.height; ++v) {
-    for (int u = box_.x; u + 1 < box_.x + box_.width; ++u) {
-      const bool here = drawn(v, u);
-      if (here == drawn(v, u + 1) && here == drawn(v + 1, u)) continue;
-      for (int dv = -1; dv <= 2; ++dv) {
-        for (int du = -1; du <= 2; ++du)
-          mark(std::clamp(v + dv, 0, size_.height - 1), std::clamp(u + du, 0, size_.width - 1));
-      }
+  const int first_row = box_.y / block_px;
+  const int last_row = (box_.y + box_.height - 1) / block_px;
+  const int first_column = box_.x / block_px;
+  const int last_column = (box_.x + box_.width - 1) / block_px;
+  const auto at = [&](int row, int column) { return static_cast<std::size_t>(row * blocks_across_ + column); };
+  for (int row = first_row; row <= last_row; ++row) {
+    for (int column = first_column; column <= last_column; ++column) {
+      const int coverage = coverage_of_block(row, column);
+      block_coverage_[at(row, column)] = static_cast<std::uint8_t>(coverage);
     }
   }
   // Elsewhere what was drawn is covered, and where nothing was drawn nothing is.
   for (int v = box_.y; v < box_.y + box_.height; ++v) {
-    const std::uint8_t* blocks = &outline_blocks_[static_cast<std::size_t>(v / block_px * blocks_across_)];
     const auto line = static_cast<std::size_t>(v) * static_cast<std::size_t>(size_.width);
-    for (int u = box_.x; u < box_.x + box_.width; ++u) {
-      const std::size_t i = line + static_cast<std::size_t>(u);
-      covered_[i] = blocks[u / block_px] == 0 && depth_mm_[i] < nothing_mm ? ~0U : 0U;
+    for (int column = first_column; column <= last_column; ++column) {
+      const std::size_t block = at(v / block_px, column);
+      const std::uint32_t covered = block_coverage_[block] == 1 ? ~0U : 0U;
+      const int from = std::max(box_.x, column * block_px);
+      const int to = std::min(box_.x + box_.width, (column + 1) * block_px);
+      for (int u = from; u < to; ++u)
+        covered_[line + static_cast<std::size_t>(u)] = covered;
     }
   }
 }
@@ -114,7 +130,7 @@ bool MeshRaster::near_outline(const RasterVertex& a, const RasterVertex& b, cons
   const int v1 = block(std::max({a.v_px, b.v_px, c.v_px}), box_.y, bottom);
   for (int v = v0; v <= v1; ++v) {
     for (int u = u0; u <= u1; ++u) {
-      if (outline_blocks_[static_cast<std::size_t>(v * blocks_across_ + u)] != 0) return true;
+      if (block_coverage_[static_cast<std::size_t>(v * blocks_across_ + u)] == 2) return true;
     }
   }
   return false;
@@ -166,12 +182,14 @@ void MeshRaster::colour(const RasterVertex& a, const RasterVertex& b, const Rast
   float of_b = (du * (c.v_px - a.v_px) - dv * (c.u_px - a.u_px)) / area;
   float of_c = (dv * (b.u_px - a.u_px) - du * (b.v_px - a.v_px)) / area;
   const auto line = static_cast<std::size_t>(row) * static_cast<std::size_t>(size_.width);
+  const auto drawn_line = static_cast<std::size_t>(row * drawn_stride_);
   for (int u = from; u < to; ++u, of_b += of_b_per_px, of_c += of_c_per_px) {
     const std::size_t i = line + static_cast<std::size_t>(u);
     const float of_a = 1 - of_b - of_c;
     const float depth_mm = of_a * a.depth_mm + of_b * b.depth_mm + of_c * c.depth_mm;
     if (depth_mm >= depth_mm_[i]) continue;
     depth_mm_[i] = depth_mm;
+    drawn_[drawn_line + static_cast<std::size_t>(u)] = 255;
     pixels_[i] = {a.light * of_a + b.light * of_b + c.light * of_c,
                   of_a * a.height_mm + of_b * b.height_mm + of_c * c.height_mm};
   }

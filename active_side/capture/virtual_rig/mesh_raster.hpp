@@ -38,6 +38,7 @@ class MeshRaster {
   void cover(const RasterVertex& a, const RasterVertex& b, const RasterVertex& c, int row);
   void colour(const RasterVertex& a, const RasterVertex& b, const RasterVertex& c, int row);
 
+  [[nodiscard]] int coverage_of_block(int block_row, int block_column) const;
   [[nodiscard]] bool near_outline(const RasterVertex& a, const RasterVertex& b, const RasterVertex& c) const;
 
   struct Rows {
@@ -54,8 +55,10 @@ class MeshRaster {
   cv::Size size_;
   cv::Rect box_;
   int blocks_across_;
-  std::vector<std::uint8_t> outline_blocks_;  // 1: an outline runs through this block of 8 x 8 pixels
+  std::vector<std::uint8_t> block_coverage_;  // of blocks of 8 x 8 pixels: 0 none, 1 full, 2 crossed by an outline
   std::vector<std::uint32_t> covered_;        // 4 rows of 8 points, the upper left one in the lowest bit
+  int drawn_stride_;                          // whole blocks, so that eight pixels are looked at at once
+  std::vector<std::uint8_t> drawn_;           // 255 where depth_mm_ is that of a triangle
   std::vector<float> depth_mm_;               // nothing drawn: a large number
   std::vector<Pixel> pixels_;
 };

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <opencv2/core/hal/intrin.hpp>
 
 namespace telehug {
 namespace {
@@ -11,11 +12,12 @@ namespace {
 constexpr double sideways = 0.2;  // sine of a grazing angle of 12 degrees
 
 // Sum of all values before a place on a column, given the sums before each row; beyond the ends they go on as they are.
-cv::Vec4f sum_before(const std::vector<cv::Vec4f>& sums, float place) {
-  const std::size_t last = sums.size() - 2;
-  if (place <= 0) return sums[1] * place;
-  const std::size_t row = std::min(last, static_cast<std::size_t>(place));
-  return sums[row] + (sums[row + 1] - sums[row]) * (place - static_cast<float>(row));
+cv::v_float32x4 sum_before(const std::vector<cv::Vec4f>& sums, float place) {
+  const auto last = static_cast<int>(sums.size()) - 2;
+  const int row = std::clamp(static_cast<int>(place), 0, last);
+  const cv::v_float32x4 before = cv::v_load(sums[static_cast<std::size_t>(row)].val);
+  const cv::v_float32x4 after = cv::v_load(sums[static_cast<std::size_t>(row) + 1].val);
+  return before + (after - before) * cv::v_setall_f32(place - static_cast<float>(row));
 }
 
 }  // namespace
@@ -71,14 +73,17 @@ void MirrorBlur::blur_column(cv::Mat& image, const cv::Mat& height_mm, int colum
     reach_px_[gap] = reach_px_[static_cast<std::size_t>(covered)];
 
   for (int pass = 0; pass < 2; ++pass) {  // two boxes make a triangle, much like the bell of a rough surface
-    sums_[0] = {};
-    for (std::size_t row = 0; row < rows; ++row)
-      sums_[row + 1] = sums_[row] + image.at<cv::Vec4f>(static_cast<int>(row), column);
+    cv::v_float32x4 sum = cv::v_setzero_f32();
+    for (std::size_t row = 0; row < rows; ++row) {
+      cv::v_store(sums_[row].val, sum);
+      sum += cv::v_load(image.ptr<float>(static_cast<int>(row), column));
+    }
+    cv::v_store(sums_[rows].val, sum);
     for (std::size_t row = 0; row < rows; ++row) {
       const float half = std::max(0.5F, reach_px_[row] / std::numbers::sqrt2_v<float>);
       const float middle = static_cast<float>(row) + 0.5F;
-      image.at<cv::Vec4f>(static_cast<int>(row), column) =
-          (sum_before(sums_, middle + half) - sum_before(sums_, middle - half)) * (1 / (2 * half));
+      const cv::v_float32x4 within = sum_before(sums_, middle + half) - sum_before(sums_, middle - half);
+      cv::v_store(image.ptr<float>(static_cast<int>(row), column), within * cv::v_setall_f32(0.5F / half));
     }
   }
 }

@@ -19,9 +19,9 @@ cv::Matx33d rotation(int axis, double angle_deg) {
   return turned;
 }
 
-// The polynomial stops rising at r^2 = -1 / (3 k1); half of that is safe, and 4 is beyond any picture.
+// The polynomial stops rising at r^2 = -1 / (3 k1); three quarters of that is safe, and 4 is beyond any picture.
 double largest_r2(double k1) {
-  return k1 < 0 ? std::min(4.0, -1 / (6 * k1)) : 4.0;
+  return k1 < 0 ? std::min(4.0, -1 / (4 * k1)) : 4.0;
 }
 
 // u = -x, v = -z, w = +y. The rig frame is left-handed (x right, y down, z to the viewer), the camera frame is not.
@@ -48,7 +48,7 @@ ImagePoint PinholeCamera::project(const RigPoint& point) const {
   return {u0_px_ + x * scale, v0_px_ + y * scale};
 }
 
-// Newton's method on r_u (1 + k1 r_u^2) = r_d: four steps are exact to 1e-12 within a picture.
+// Newton's method on r_u (1 + k1 r_u^2) = r_d: six steps are exact to 1e-12 within a picture.
 RigPoint PinholeCamera::ray(double u_px, double v_px) const {
   const double x = (u_px - u0_px_) / focal_px_;
   const double y = (v_px - v0_px_) / focal_px_;
@@ -56,7 +56,7 @@ RigPoint PinholeCamera::ray(double u_px, double v_px) const {
   if (k1_ != 0) {
     const double r_d = std::hypot(x, y);
     double r_u = r_d;
-    for (int i = 0; i < 4; ++i) {
+    for (int i = 0; i < 6; ++i) {
       const double r2 = std::min(r_u * r_u, largest_r2_);
       r_u -= (r_u * (1 + k1_ * r2) - r_d) / (1 + 3 * k1_ * r2);
     }

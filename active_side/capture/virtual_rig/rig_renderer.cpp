@@ -157,9 +157,9 @@ void RigRenderer::add_shadows() {
     auto* row = coded_.ptr<cv::Vec3w>(v + shadow_box_.y) + shadow_box_.x;
     for (int u = 0; u < shadow_box_.width; ++u) {
       if (factor[u] > 0.999F) continue;
-      const float darker = std::sqrt(factor[u]);  // coded pictures hold the root of the light
+      const int of_65536 = static_cast<int>(factor[u] * 65536);
       for (int c = 0; c < 3; ++c)
-        row[u][c] = static_cast<std::uint16_t>(static_cast<float>(row[u][c]) * darker);
+        row[u][c] = static_cast<std::uint16_t>((row[u][c] * of_65536) >> 16);
     }
   }
 }
@@ -173,7 +173,7 @@ void RigRenderer::compose(const cv::Rect& box, const cv::Rect& hand_box, const c
     const float* factor = shadow_factor_.ptr<float>(v - shadow_box_.y) - shadow_box_.x;
     Light* row = composed_.ptr<Light>(v - around.y) - around.x;
     for (int u = shaded.x; u < shaded.x + shaded.width; ++u)
-      row[u] *= factor[u];
+      row[u] *= factor[u] * factor[u];
   }
   for (int v = mirror_box.y; v < mirror_box.y + mirror_box.height; ++v) {
     const auto* image = mirror_image_.ptr<cv::Vec4f>(v - mirror_box.y) - mirror_box.x;

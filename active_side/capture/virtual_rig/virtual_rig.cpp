@@ -47,7 +47,7 @@ Status check_virtual_rig(const VirtualRigSettings& s) {
       !within(s.desk_below_mm, 10, 2000)) {
     return Error{"virtual rig: bezel_mm must be 0 to 500, desk_below_mm 10 to 2000, the bezel lower than the camera"};
   }
-  if (!within(s.distortion_k1, -0.3, 0.3)) return Error{"virtual rig: distortion_k1 must be -0.3 to 0.3"};
+  if (!within(s.distortion_k1, -0.2, 0.2)) return Error{"virtual rig: distortion_k1 must be -0.2 to 0.2"};
   if (s.hand.skin_tone < 1 || s.hand.skin_tone > 6) return Error{"virtual rig: skin_tone must be 1 to 6 (Fitzpatrick)"};
   if (!within(s.hand.finger_width_mm, 8, 30) || !within(s.hand.nail_mm, 0, 30)) {
     return Error{"virtual rig: fingers must be 8 to 30 mm wide, nails 0 to 30 mm long"};

@@ -31,8 +31,8 @@ namespace {
 
 using namespace telehug;
 
-// A TouchEvent with two contacts and two transitions: 348 bytes of CDR, and what RTPS puts before it.
-constexpr std::size_t event_bytes = 430;
+// A TouchEvent with two contacts and two transitions: 364 bytes of CDR, and what RTPS puts before it.
+constexpr std::size_t event_bytes = 446;
 
 struct Options {
   int samples = 2000;

@@ -48,7 +48,7 @@ class StagedDetector {
     ms[0] = watch.lap_ms();
     const auto& foreground = background_.distance(strip_);
     ms[1] = watch.lap_ms();
-    const Crossings& crossings = crossing_finder_.find(foreground, bgr, border_);
+    const Crossings& crossings = crossing_finder_.find(foreground, background_.new_edges(), bgr, border_);
     ms[2] = watch.lap_ms();
     for (const Crossing& crossing : crossings)
       add_finger(bgr, FingerAxis(crossing, border_), ms);

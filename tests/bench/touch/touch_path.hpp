@@ -38,7 +38,7 @@ inline BodyMap body_map_on(const ScreenSize& screen) {
 // The whole path, from a decoded frame to the event that is sent. Names are "touch.PREFIXframeSUFFIX" and so on.
 template <typename Detector>
 Figures measure_path(Detector& detector, const TouchedRig& rig, const std::string& prefix, const std::string& suffix) {
-  ContactTracker tracker;
+  ContactTracker tracker({.every_finger_touches = true});
   TouchEventBuilder builder("0123456789abcdef0123456789abcdef");
   const BodyMap map = body_map_on(rig.screen);
   NobodyTouched nobody;
@@ -61,7 +61,7 @@ Figures measure_path(Detector& detector, const TouchedRig& rig, const std::strin
     const TouchedPoints touched = screen_points(fingers, rig.model, rig.screen, rig.image);
     const double model_ms = watch.lap_ms();
     const Timestamp time = Timestamp{} + i * 33ms;
-    const ContactStates& contacts = tracker.update(touched.points, time);
+    const ContactStates& contacts = tracker.update(touched.fingers, time);
     const double track_ms = watch.lap_ms();
     const BoxedContacts boxed = boxes_under(contacts, map, Duration::max(), time, nobody);
     builder.build(boxed, map.shape, map.version, time, time);

@@ -64,7 +64,12 @@ class ActivePipelineTest : public testing::Test {
   MetricsRegistry metrics;
   BodyMap map;
   Frame frame;
-  ActivePipeline pipeline{calibration(), ActivePipelineOptions{}, example_session, clock, metrics};
+  static ActivePipelineOptions options() {
+    ActivePipelineOptions options;
+    options.frames.frozen_after = 0;  // the drawn pictures stand still
+    return options;
+  }
+  ActivePipeline pipeline{calibration(), options(), example_session, clock, metrics};
 };
 
 TEST_F(ActivePipelineTest, SendsTheBoxUnderTheFinger) {
@@ -106,6 +111,16 @@ TEST_F(ActivePipelineTest, SendsOneDownThenMovesThenOneUp) {
   EXPECT_EQ(see(nobody()), nullptr) << "there is nothing more to say";
   EXPECT_EQ(counter("touches_seen"), 1U);
   EXPECT_EQ(counter("frames"), 25U);
+}
+
+TEST_F(ActivePipelineTest, SaysWhatTheTouchIs) {
+  EXPECT_EQ(see(touching())->contacts.at(0).gesture, Gesture::none);
+  for (int i = 0; i < 12; ++i)
+    see(touching());
+  EXPECT_EQ(see(touching())->contacts.at(0).gesture, Gesture::hold);
+  const TouchEvent* event = miss(200ms);
+  ASSERT_NE(event, nullptr);
+  EXPECT_EQ(event->transitions.back().contact.gesture, Gesture::hold);
 }
 
 TEST_F(ActivePipelineTest, SaysNothingWhileItIsNotSending) {
@@ -158,6 +173,52 @@ TEST_F(ActivePipelineTest, CountsPicturesOfAnotherSizeAndGoesOn) {
   EXPECT_NE(see(touching()), nullptr);
 }
 
+TEST_F(ActivePipelineTest, EndsATouchAndBeginsNoneWhileThePicturesCantBeBelieved) {
+  ASSERT_NE(see(touching()), nullptr);
+  const cv::Mat black(image.height_px, image.width_px, CV_8UC3, cv::Scalar(0, 0, 0));
+  const TouchEvent* event = nullptr;
+  for (int i = 0; i < 5; ++i)
+    event = see(black);
+  ASSERT_NE(event, nullptr);
+  EXPECT_EQ(event->transitions.back().contact.phase, Phase::up);
+  EXPECT_TRUE(event->contacts.empty());
+  EXPECT_EQ(pipeline.verdict(), FrameVerdict::blank);
+  EXPECT_EQ(counter("frames_blank"), 5U);
+  for (int i = 0; i < 8; ++i)
+    event = see(touching());
+  EXPECT_EQ(pipeline.verdict(), FrameVerdict::good);
+  ASSERT_NE(event, nullptr);
+  EXPECT_EQ(event->contacts.size(), 1U) << "it recovers by itself";
+}
+
+TEST_F(ActivePipelineTest, EndsATouchOfACameraThatHangs) {
+  ActivePipeline hanging(calibration(), ActivePipelineOptions{}, example_session, clock, metrics);
+  const TouchEvent* event = nullptr;
+  for (int i = 0; i < 20; ++i) {
+    clock.advance(frame_period);
+    map.seen = frame.time = clock.now();
+    frame.bgr = touching();
+    event = hanging.process(frame, map, true);
+  }
+  ASSERT_NE(event, nullptr);
+  EXPECT_TRUE(event->contacts.empty());
+  EXPECT_EQ(hanging.verdict(), FrameVerdict::frozen);
+  EXPECT_GT(counter("frames_frozen"), 0U);
+}
+
+TEST_F(ActivePipelineTest, BeginsNoTouchWhileTheLightChangesButGoesOnWithThoseThereAre) {
+  cv::Mat dark;
+  nobody().convertTo(dark, CV_8UC3, 0.5);
+  see(dark);
+  EXPECT_EQ(see(touching()), nullptr) << "the lamp was switched on in this frame";
+  for (int i = 0; i < 6; ++i)
+    EXPECT_EQ(see(touching()), nullptr);
+  const TouchEvent* event = see(touching());
+  ASSERT_NE(event, nullptr);
+  EXPECT_EQ(event->contacts.at(0).phase, Phase::down);
+  EXPECT_EQ(counter("light_changes"), 1U);
+}
+
 TEST_F(ActivePipelineTest, LetsTimeRiseWhenAPictureIsOlderThanTheLastMiss) {
   ASSERT_NE(see(touching()), nullptr);
   const std::int64_t before_ns = miss()->frame_time_ns;
@@ -166,6 +227,72 @@ TEST_F(ActivePipelineTest, LetsTimeRiseWhenAPictureIsOlderThanTheLastMiss) {
   const TouchEvent* event = pipeline.process(frame, map, true);
   ASSERT_NE(event, nullptr);
   EXPECT_GT(event->frame_time_ns, before_ns);
+}
+
+// A camera without angles 50 mm in front of the screen's upper edge, so that the border is where the scene has it.
+class WatchedCamera : public ActivePipelineTest {
+ protected:
+  static Calibration calibration() {
+    const RigModel model{RigCamera({1000, 0, {200, -11.5, 50}}, image), 10};
+    RigObservations seen{screen, image, {}, {}, {}};
+    for (const ScreenPoint& place : {ScreenPoint{200, 200}, {230, 260}, {120, 230}, {300, 240}, {180, 290}})
+      seen.touches.push_back({place, tip_of_contact(model.camera, 10, place).value(), 0.1, 0.1});
+    for (int u = 20; u < image.width_px; u += 40)
+      seen.border.push_back({{static_cast<double>(u), border.v_at(u)}, 0.1});
+    const RigSolution solution = solve_rig(seen).value();
+    return {"drawn", "2026-11-22T00:00:00Z", image, screen, border, RigCalibration{seen, solution}};
+  }
+
+  WatchedCamera() { see(nobody()); }  // the bezel is learnt
+  const TouchEvent* see(const cv::Mat& picture) {
+    clock.advance(frame_period);
+    map.seen = clock.now();
+    frame.bgr = picture;
+    frame.time = clock.now() - 5ms;
+    return watched.process(frame, map, true);
+  }
+  static cv::Mat moved(int rows, bool finger) {
+    DrawnScene scene({border.v0_px + rows, 0}, image);
+    if (finger) scene.finger(613, 55, 57);
+    return scene.noise(3, 4).picture();
+  }
+
+  ActivePipeline watched{calibration(), ActivePipelineOptions{}, example_session, clock, metrics};
+};
+
+TEST_F(WatchedCamera, IsTrustedWhileItStands) {
+  for (int i = 0; i < 100; ++i)
+    EXPECT_NE(see(touching()), nullptr);
+  EXPECT_EQ(watched.camera_drift(), DriftState::steady);
+}
+
+TEST_F(WatchedCamera, IsCorrectedAfterASmallTurn) {
+  const cv::Mat turned = moved(2, true);
+  const double before_mm = see(turned)->contacts.at(0).screen.y_mm;
+  for (int i = 0; i < 80; ++i)
+    see(turned);
+  EXPECT_EQ(watched.camera_drift(), DriftState::moved_slightly);
+  // Two rows are 2.1 mm where this finger touches; what moved down in the picture looked too far up on the screen.
+  EXPECT_NEAR(see(turned)->contacts.at(0).screen.y_mm - before_mm, 2.1, 0.8);
+}
+
+TEST_F(WatchedCamera, EndsTouchesWhenItWasMoved) {
+  ASSERT_NE(see(touching()), nullptr);
+  const cv::Mat away = moved(6, true);
+  for (int i = 0; i < 80; ++i)
+    see(away);
+  EXPECT_EQ(watched.camera_drift(), DriftState::moved);
+  EXPECT_EQ(see(away), nullptr);
+  EXPECT_EQ(see(touching()), nullptr) << "nobody knows where it looks now";
+}
+
+TEST_F(WatchedCamera, AllocatesNothing) {
+  if (!allocations_are_counted()) GTEST_SKIP() << "the sanitizer has a heap of its own";
+  see(touching());
+  const std::uint64_t before = allocation_count();
+  for (int i = 0; i < 60; ++i)
+    see(touching());
+  EXPECT_EQ(allocation_count() - before, 0U);
 }
 
 TEST_F(ActivePipelineTest, AllocatesNothingPerFrameAfterTheFirst) {

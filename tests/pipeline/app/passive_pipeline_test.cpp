@@ -93,6 +93,18 @@ TEST_F(PassivePipelineTest, AnswersOnlyNews) {
   EXPECT_THAT(running(), IsEmpty());
 }
 
+TEST_F(PassivePipelineTest, KnowsWhatTheLastTouchWas) {
+  Contact contact = contact_in(2, 1, Phase::down);
+  touch(contact);
+  EXPECT_EQ(pipeline.last_gesture(), Gesture::none);
+  contact.phase = Phase::up;
+  contact.gesture = Gesture::pat;
+  touch(contact);
+  EXPECT_EQ(pipeline.last_gesture(), Gesture::pat);
+  touch(std::nullopt);
+  EXPECT_EQ(pipeline.last_gesture(), Gesture::pat);
+}
+
 TEST_F(PassivePipelineTest, EndsADriveThatIsNotRenewed) {
   touch(2);
   pass(150ms);

@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "calibration/border_candidates.hpp"
+#include "calibration/calibration_dot.hpp"
 #include "calibration/calibration_file.hpp"
 #include "calibration/calibration_policy.hpp"
 #include "calibration/drift_watch.hpp"
@@ -149,6 +150,37 @@ TEST_P(TouchSamples, CalibrateTheDefaultModelWithAllTouches) {
     const Folder folder;
     ASSERT_TRUE(write_calibration(folder / "rig.toml", *calibration).ok());
     EXPECT_TRUE(read_calibration(folder / "rig.toml").ok());
+  }
+}
+
+// A dot is a point of the screen: what the camera makes of it is exact to parts of a millimetre, though the dots' light
+// floods the fingertips and glossy screens mirror them.
+TEST_P(TouchSamples, ShowTheDotsUnderTheFingers) {
+  for (const auto& [name, vertical_mm] : {std::pair{"rig1", 0.3}, {"rig2", 0.15}}) {
+    const auto rig = open_rig_directory(GetParam() / name);
+    ASSERT_TRUE(rig.ok()) << rig.error().message;
+    const auto calibration = calibrate_from_recording(*rig, "default", {}, "");
+    ASSERT_TRUE(calibration.ok()) << calibration.error().message;
+    const auto& solved = std::get<RigCalibration>(calibration->solved);
+    ASSERT_EQ(solved.observations.touches.size(), rig->calibration.size()) << name;
+    double horizontal = 0, vertical = 0;
+    for (std::size_t i = 0; i < rig->calibration.size(); ++i) {
+      EXPECT_EQ(solved.observations.touches[i].evidence, TouchEvidence::dot) << name << " " << i;
+      horizontal += std::abs(solved.solution.touches[i].error_mm.x_mm) / static_cast<double>(rig->calibration.size());
+      vertical += std::abs(solved.solution.touches[i].error_mm.y_mm) / static_cast<double>(rig->calibration.size());
+    }
+    EXPECT_LT(horizontal, 0.1) << name;
+    EXPECT_LT(vertical, vertical_mm) << name;
+    EXPECT_FALSE(solved.solution.bad_touch.has_value()) << name;
+  }
+}
+
+TEST_P(TouchSamples, ShowNoDotsWhenTheScreenIsBlack) {
+  for (const char* name : {"rig1", "rig2"}) {
+    const auto background = read_picture(GetParam() / name / "background.jpg");
+    ASSERT_TRUE(background.ok());
+    const BorderLine level = find_screen_border(*background, BorderChoice::longest)->line;
+    EXPECT_FALSE(find_calibration_dot(*background, level).has_value()) << name;
   }
 }
 

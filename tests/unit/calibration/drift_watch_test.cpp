@@ -45,7 +45,13 @@ TEST(BorderMeasurer, LeavesOutTheColumnsOfAFinger) {
   BorderMeasurer measurer(camera(), screen);
   ASSERT_TRUE(measurer.learn(drawn_bezel(camera(), screen)));
   cv::Mat picture = drawn_bezel(camera(), screen, 1);
-  picture(cv::Rect(600, 0, 130, 640)).setTo(cv::Scalar(120, 140, 190));
+  // Shaded and folded like skin: a profile of its own in every column.
+  cv::RNG random(3);
+  for (int v = 0; v < 640; ++v) {
+    for (int u = 600; u < 730; ++u)
+      picture.at<cv::Vec3b>(v, u) =
+          cv::Vec3b::all(cv::saturate_cast<std::uint8_t>(140 + 30 * std::sin(0.4 * v + u / 7) + random.gaussian(3)));
+  }
   const BorderShifts& shifts = measurer.measure(picture);
   EXPECT_GE(shifts.size(), border_columns - 5);
   for (const BorderShift& shift : shifts) {

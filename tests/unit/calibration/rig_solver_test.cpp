@@ -30,7 +30,7 @@ double largest_error_mm(const KnownRig& rig, const RigModel& solved, RandomRigs&
 
 TEST(RigSolver, GivesBackEveryRigFromExactProjections) {
   RandomRigs random(3);
-  for (int i = 0; i < 150; ++i) {
+  for (int i = 0; i < 50; ++i) {
     const KnownRig rig = random.rig();
     const auto solution = solve_rig(random.observe(rig, 9, 0, exact_px));
     ASSERT_TRUE(solution.ok()) << solution.error().message;
@@ -42,7 +42,7 @@ TEST(RigSolver, GivesBackEveryRigFromExactProjections) {
 
 TEST(RigSolver, GivesBackEveryRigFromFiveTouchesAndTheBorder) {
   RandomRigs random(4);
-  for (int i = 0; i < 100; ++i) {
+  for (int i = 0; i < 40; ++i) {
     const KnownRig rig = random.rig();
     const auto solution = solve_rig(random.observe(rig, 5, 0, exact_px));
     ASSERT_TRUE(solution.ok()) << solution.error().message;
@@ -52,7 +52,7 @@ TEST(RigSolver, GivesBackEveryRigFromFiveTouchesAndTheBorder) {
 
 TEST(RigSolver, TellsHowThePictureIsTurned) {
   RandomRigs random(5);
-  for (int i = 0; i < 60; ++i) {
+  for (int i = 0; i < 32; ++i) {
     const PictureOrientation orientation{i % 2 == 1, i % 4 >= 2};
     const KnownRig rig = random.rig(orientation);
     const auto solution = solve_rig(random.observe(rig, i % 3 == 0 ? 2 : 5, 0.3, 0.3));
@@ -64,7 +64,7 @@ TEST(RigSolver, TellsHowThePictureIsTurned) {
 
 TEST(RigSolver, FindsTheOneBadTouch) {
   RandomRigs random(6);
-  for (int i = 0; i < 60; ++i) {
+  for (int i = 0; i < 24; ++i) {
     const KnownRig rig = random.rig();
     RigObservations seen = random.observe(rig, i % 2 == 0 ? 9 : 5, 0.3, 0.3);
     const auto bad = static_cast<std::size_t>(i) % seen.touches.size();
@@ -80,10 +80,23 @@ TEST(RigSolver, FindsTheOneBadTouch) {
   }
 }
 
+TEST(RigSolver, IsNotBentByBorderPointsOfAnotherEdge) {
+  RandomRigs random(14);
+  for (int i = 0; i < 20; ++i) {
+    const KnownRig rig = random.rig();
+    RigObservations seen = random.observe(rig, 9, 0, 0.3);
+    for (const std::size_t point : {3U, 4U, 11U})
+      seen.border[point].image.v_px += 15;
+    const auto solution = solve_rig(seen, {std::nullopt, PictureOrientation{}});
+    ASSERT_TRUE(solution.ok()) << solution.error().message;
+    ASSERT_LT(largest_error_mm(rig, solution->model, random), 1.5) << "rig " << i;
+  }
+}
+
 TEST(RigSolver, FindsNoBadTouchAmongGoodOnes) {
   RandomRigs random(7);
   int found = 0;
-  for (int i = 0; i < 100; ++i) {
+  for (int i = 0; i < 40; ++i) {
     const auto solution = solve_rig(random.observe(random.rig(), 9, 0.3, 0.3));
     ASSERT_TRUE(solution.ok()) << solution.error().message;
     found += solution->bad_touch ? 1 : 0;
@@ -94,13 +107,13 @@ TEST(RigSolver, FindsNoBadTouchAmongGoodOnes) {
 TEST(RigSolver, TellsByChiSquaredWhetherTheNoiseIsWhatItWasSaidToBe) {
   RandomRigs random(8);
   double said = 0, larger = 0;
-  constexpr int rigs = 40;
+  constexpr int rigs = 25;
   for (int i = 0; i < rigs; ++i) {
     const KnownRig rig = random.usual_rig();
     said += solve_rig(random.observe(rig, 9, 0.3, 0.3)).value().reduced_chi2 / rigs;
     larger += solve_rig(random.observe(rig, 9, 0.6, 0.3)).value().reduced_chi2 / rigs;
   }
-  EXPECT_NEAR(said, 1, 0.15);
+  EXPECT_NEAR(said, 1, 0.2);
   EXPECT_GT(larger, 2.5);
 }
 

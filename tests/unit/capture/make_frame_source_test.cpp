@@ -59,7 +59,7 @@ TEST_F(MakeFrameSource, SaysWhichSourcesThereAreForAnythingElse) {
 }
 
 TEST_F(MakeFrameSource, SaysWhyAVirtualRigCantBe) {
-  settings_.virtual_rig.skin_tone = 7;
+  settings_.virtual_rig.hand.skin_tone = 7;
   EXPECT_THAT(name_of("virtual"), HasSubstr("skin_tone must be 1 to 6"));
 }
 

@@ -52,5 +52,22 @@ TEST(PinholeCamera, TurnsThePictureWithItsAngles) {
   EXPECT_LT(towards_left.project({190, 300, 0}).u_px, straight.project({190, 300, 0}).u_px);
 }
 
+TEST(PinholeCamera, LooksAlongTheRayThroughTheImageOfAPointHoweverItsLensDistorts) {
+  for (const double k1 : {-0.2, -0.08, 0.08, 0.2}) {
+    const PinholeCamera camera({{190, -15, 50}, 3, -2, 4}, 900, {1280, 720}, k1);
+    for (const ImagePoint p : {ImagePoint{0, 0}, {1279, 719}, {640, 360}, {100, 650}}) {
+      const ImagePoint again = camera.project(camera.position_mm() + camera.ray(p.u_px, p.v_px) * 250);
+      EXPECT_NEAR(again.u_px, p.u_px, 1e-6) << k1;
+      EXPECT_NEAR(again.v_px, p.v_px, 1e-6) << k1;
+    }
+  }
+}
+
+TEST(PinholeCamera, KeepsWhatLiesFarBesideThePictureOutOfIt) {
+  const PinholeCamera camera({{190, -15, 50}, 0, 0, 0}, 900, {1280, 720}, -0.08);
+  for (double x_mm = 500; x_mm < 5000; x_mm += 100)
+    EXPECT_LT(camera.project({x_mm, 100, 0}).u_px, 0) << x_mm;
+}
+
 }  // namespace
 }  // namespace telehug

@@ -45,6 +45,12 @@ TEST_F(ConfigFaults, AreAllToldAtOnceWithTheirLines) {
   EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 6);
 }
 
+TEST_F(ConfigFaults, TellOfAPowerLineThatFlickersOtherwiseThanAnyDoes) {
+  EXPECT_THAT(active_faults("[camera]\npower_line_hz = 55\n"),
+              HasSubstr("c.toml:2: camera.power_line_hz must be 0, 50"));
+  EXPECT_EQ(active_faults("[camera]\npower_line_hz = 50\n"), "");
+}
+
 TEST_F(ConfigFaults, OfSyntaxDoNotHideTheOthers) {
   const std::string text = active_faults(
       "[camera]\n"

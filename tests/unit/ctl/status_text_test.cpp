@@ -37,6 +37,11 @@ TEST(StatusText, ShowsPeerCameraCountersAndLatencies) {
   EXPECT_THAT(text, testing::ContainsRegex("finger +1.250 +2.500 +3.000 +100\n"));
 }
 
+TEST(StatusText, SaysWhatTheLastTouchWas) {
+  const std::string text = status_text({{"last_touch", {{"box", 7}, {"gesture", "stroke"}, {"phase", "up"}}}});
+  EXPECT_THAT(text, HasSubstr("last touch   stroke, box 7, phase up\n"));
+}
+
 TEST(StatusText, ShowsPartsItDoesNotKnow) {
   const std::string text = status_text({{"heater", {{"name", "left"}, {"celsius", 31}}}, {"mood", "calm"}});
   EXPECT_THAT(text, HasSubstr("heater       left, celsius 31\n"));

@@ -55,6 +55,7 @@ TEST(ATouchEvent, IsRefusedWithTheReason) {
           {"there are contacts but no body map", [](auto& event) { event.body_map_version = 0; }},
           {"two contacts have one id", [](auto& event) { event.contacts[1].id = event.contacts[0].id; }},
           {"a contact's phase is unknown", [](auto& event) { event.contacts[0].phase = Phase{3}; }},
+          {"a contact's gesture is unknown", [](auto& event) { event.contacts[0].gesture = Gesture{6}; }},
           {grid, [](auto& event) { event.contacts[0].grid.columns = 0; }},
           {grid, [](auto& event) { event.contacts[0].grid.rows = 101; }},
           {box, [](auto& event) { event.contacts[0].box = 0; }},

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <string>
 
 #include "doubles/example_messages.hpp"
@@ -29,6 +30,7 @@ void expect_equal(const Contact& a, const Contact& b) {
   EXPECT_EQ(a.screen.y_mm, b.screen.y_mm);
   EXPECT_EQ(a.speed_mm_s, b.speed_mm_s);
   EXPECT_EQ(a.strength, b.strength);
+  EXPECT_EQ(a.gesture, b.gesture);
 }
 
 TEST(TheWireForm, KeepsEveryFieldOfATouchEvent) {
@@ -153,6 +155,9 @@ TEST(TheWireForm, IsRefusedBeyondItsBoundsAndWithUnknownEnums) {
     v1::TouchEvent strange = wire;
     strange.contacts()[0].phase(static_cast<v1::Phase>(unknown));
     EXPECT_STREQ(from_wire(strange, event), "a contact's phase is unknown") << unknown;
+    strange = wire;
+    strange.transitions()[0].contact().gesture(static_cast<v1::Gesture>(std::max(unknown, 6U)));
+    EXPECT_STREQ(from_wire(strange, event), "a contact's gesture is unknown") << unknown;
   }
   v1::Felt wire_felt;
   Felt felt;

@@ -58,6 +58,21 @@ TEST_F(TouchEvents, CarryTheWholeStateAndWhereItComesFrom) {
   EXPECT_EQ(frame({boxed(1, Phase::move), boxed(2, Phase::move)})->sequence, 2U);
 }
 
+TEST_F(TouchEvents, RepeatTheFinalGestureWithTheUp) {
+  frame({boxed(1, Phase::down)});
+  BoxedContact stroke = boxed(1, Phase::up);
+  stroke.gesture = Gesture::stroke;
+  EXPECT_EQ(frame({stroke})->contacts[0].gesture, Gesture::stroke);
+  EXPECT_EQ(frame({})->transitions[1].contact.gesture, Gesture::stroke);
+}
+
+TEST_F(TouchEvents, EndAContactThatSlidOutAsWhatItWasUntilThen) {
+  BoxedContact stroke = boxed(1, Phase::down);
+  stroke.gesture = Gesture::stroke;
+  frame({stroke});
+  EXPECT_EQ(frame({})->transitions[1].contact.gesture, Gesture::stroke);
+}
+
 TEST_F(TouchEvents, SendAnUpOnceAsAContactAndThenOnlyAsATransition) {
   frame({boxed(1, Phase::down)});
   const TouchEvent* up = frame({boxed(1, Phase::up)});

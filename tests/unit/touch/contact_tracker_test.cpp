@@ -14,67 +14,71 @@ namespace {
 
 constexpr Duration frame = std::chrono::microseconds{33'333};
 
+FingerObservations touches(const ScreenPoints& points) {
+  return without_evidence(points);
+}
+
 Timestamp at(int number) {
   return Timestamp{1s} + number * frame;
 }
 
 TEST(ContactTracker, ReportsDownThenMoveThenUpOnce) {
-  ContactTracker tracker({.up_after_missed_frames = 2, .up_after = 1s});
-  EXPECT_TRUE(tracker.update({}, at(0)).empty());
+  ContactTracker tracker({.every_finger_touches = true, .up_after_missed_frames = 2, .up_after = 1s});
+  EXPECT_TRUE(tracker.update(touches({}), at(0)).empty());
 
-  ContactStates states = tracker.update({{100, 100}}, at(1));
+  ContactStates states = tracker.update(touches({{100, 100}}), at(1));
   ASSERT_EQ(states.size(), 1U);
   EXPECT_EQ(states[0].phase, Phase::down);
   EXPECT_EQ(states[0].frame_time, at(1));
   const auto id = states[0].id;
   EXPECT_NE(id, 0U);
 
-  states = tracker.update({{103, 104}}, at(2));
+  states = tracker.update(touches({{103, 104}}), at(2));
   ASSERT_EQ(states.size(), 1U);
   EXPECT_EQ(states[0].phase, Phase::move);
   EXPECT_EQ(states[0].id, id);
   EXPECT_NEAR(states[0].speed_mm_s, 150, 0.01);  // 5 mm in a frame
 
-  states = tracker.update({}, at(3));  // held
+  states = tracker.update(touches({}), at(3));  // held
   ASSERT_EQ(states.size(), 1U);
   EXPECT_EQ(states[0].phase, Phase::move);
   EXPECT_EQ(states[0].screen.x_mm, 103);
   EXPECT_EQ(states[0].frame_time, at(2));
   EXPECT_EQ(states[0].speed_mm_s, 0);
 
-  states = tracker.update({}, at(4));
+  states = tracker.update(touches({}), at(4));
   ASSERT_EQ(states.size(), 1U);
   EXPECT_EQ(states[0].phase, Phase::up);
   EXPECT_EQ(states[0].id, id);
   EXPECT_EQ(states[0].screen.y_mm, 104);
   EXPECT_EQ(states[0].frame_time, at(4));
 
-  EXPECT_TRUE(tracker.update({}, at(5)).empty());
-  EXPECT_NE(tracker.update({{103, 104}}, at(6))[0].id, id);
+  EXPECT_TRUE(tracker.update(touches({}), at(5)).empty());
+  EXPECT_NE(tracker.update(touches({{103, 104}}), at(6))[0].id, id);
 }
 
 TEST(ContactTracker, EndsAContactWhenNoFrameComesInTime) {
-  ContactTracker tracker({.up_after_missed_frames = 100, .up_after = 70ms});
-  tracker.update({{10, 10}}, at(0));
-  EXPECT_EQ(tracker.update({}, at(0) + 69ms)[0].phase, Phase::move);
-  EXPECT_EQ(tracker.update({}, at(0) + 70ms)[0].phase, Phase::up);
+  ContactTracker tracker({.every_finger_touches = true, .up_after_missed_frames = 100, .up_after = 70ms});
+  tracker.update(touches({{10, 10}}), at(0));
+  EXPECT_EQ(tracker.update(touches({}), at(0) + 69ms)[0].phase, Phase::move);
+  EXPECT_EQ(tracker.update(touches({}), at(0) + 70ms)[0].phase, Phase::up);
 }
 
 TEST(ContactTracker, TakesUpAContactThatWasHeld) {
-  ContactTracker tracker({.up_after_missed_frames = 3, .up_after = 1s});
-  const auto id = tracker.update({{10, 10}}, at(0))[0].id;
-  tracker.update({}, at(1));
-  const ContactStates states = tracker.update({{16, 18}}, at(2));
+  ContactTracker tracker({.every_finger_touches = true, .up_after_missed_frames = 3, .up_after = 1s});
+  const auto id = tracker.update(touches({{10, 10}}), at(0))[0].id;
+  tracker.update(touches({}), at(1));
+  const ContactStates states = tracker.update(touches({{16, 18}}), at(2));
   ASSERT_EQ(states.size(), 1U);
   EXPECT_EQ(states[0].id, id);
   EXPECT_NEAR(states[0].speed_mm_s, 150, 0.01);  // 10 mm in two frames
 }
 
 TEST(ContactTracker, TakesAPointBeyondTheGateForAnotherFinger) {
-  ContactTracker tracker({.gate_mm = 40});
-  const auto id = tracker.update({{100, 100}}, at(0))[0].id;
-  EXPECT_EQ(tracker.update({{140, 100}}, at(1))[0].id, id);
-  const ContactStates states = tracker.update({{181, 100}}, at(2));
+  ContactTracker tracker({.every_finger_touches = true, .gate_mm = 40});
+  const auto id = tracker.update(touches({{100, 100}}), at(0))[0].id;
+  EXPECT_EQ(tracker.update(touches({{140, 100}}), at(1))[0].id, id);
+  const ContactStates states = tracker.update(touches({{181, 100}}), at(2));
   ASSERT_EQ(states.size(), 2U);
   EXPECT_EQ(states[0].id, id);
   EXPECT_EQ(states[0].screen.x_mm, 140);
@@ -82,44 +86,54 @@ TEST(ContactTracker, TakesAPointBeyondTheGateForAnotherFinger) {
 }
 
 TEST(ContactTracker, KeepsIdentitiesOfFingersThatMoveTogether) {
-  ContactTracker tracker;
+  ContactTracker tracker({.every_finger_touches = true});
   ScreenPoints points{{100, 100}, {115, 100}, {130, 100}};
   std::map<std::uint32_t, double> y_of;
-  for (const ContactState& state : tracker.update(points, at(0)))
+  for (const ContactState& state : tracker.update(touches(points), at(0)))
     y_of[state.id] = state.screen.x_mm;
   for (int i = 1; i < 30; ++i) {
     ScreenPoints moved;
     for (const ScreenPoint& point : points)
       moved.push_back({point.x_mm, point.y_mm + 5.0 * i});
     std::reverse(moved.begin(), moved.end());  // the order of the points means nothing
-    const ContactStates& states = tracker.update(moved, at(i));
+    const ContactStates& states = tracker.update(touches(moved), at(i));
     ASSERT_EQ(states.size(), 3U);
     for (const ContactState& state : states)
       ASSERT_EQ(y_of.at(state.id), state.screen.x_mm);
   }
 }
 
+TEST(ContactTracker, BeginsNothingNewWhileTheSceneIsDisturbedButGoesOn) {
+  ContactTracker tracker({.every_finger_touches = true});
+  EXPECT_TRUE(tracker.update(touches({{10, 10}}), at(0), Scene::disturbed).empty());
+  const auto id = tracker.update(touches({{10, 10}}), at(1))[0].id;
+  const ContactStates& states = tracker.update(touches({{12, 10}, {200, 10}}), at(2), Scene::disturbed);
+  ASSERT_EQ(states.size(), 1U);
+  EXPECT_EQ(states[0].id, id);
+  EXPECT_EQ(states[0].screen.x_mm, 12);
+}
+
 TEST(ContactTracker, SurvivesTimesThatDoNotRise) {
-  ContactTracker tracker;
-  tracker.update({{10, 10}}, at(5));
-  const ContactStates states = tracker.update({{11, 10}}, at(5));
+  ContactTracker tracker({.every_finger_touches = true});
+  tracker.update(touches({{10, 10}}), at(5));
+  const ContactStates states = tracker.update(touches({{11, 10}}), at(5));
   EXPECT_EQ(states[0].speed_mm_s, 0);
-  EXPECT_EQ(tracker.update({{12, 10}}, at(4))[0].phase, Phase::move);
+  EXPECT_EQ(tracker.update(touches({{12, 10}}), at(4))[0].phase, Phase::move);
 }
 
 TEST(ContactTracker, HoldsAtMostTenAndTakesNewOnesWhenPlacesAreFree) {
-  ContactTracker tracker({.gate_mm = 10, .up_after_missed_frames = 1});
+  ContactTracker tracker({.every_finger_touches = true, .gate_mm = 10, .up_after_missed_frames = 1});
   ScreenPoints ten;
   for (int i = 0; i < 10; ++i)
     ten.push_back({40.0 * i, 100});
-  EXPECT_EQ(tracker.update(ten, at(0)).size(), 10U);
+  EXPECT_EQ(tracker.update(touches(ten), at(0)).size(), 10U);
   for (ScreenPoint& point : ten)
     point.y_mm = 200;
-  ContactStates states = tracker.update(ten, at(1));  // the first ten end
+  ContactStates states = tracker.update(touches(ten), at(1));  // the first ten end
   ASSERT_EQ(states.size(), 10U);
   for (const ContactState& state : states)
     EXPECT_EQ(state.phase, Phase::up);
-  states = tracker.update(ten, at(2));
+  states = tracker.update(touches(ten), at(2));
   ASSERT_EQ(states.size(), 10U);
   for (const ContactState& state : states)
     EXPECT_EQ(state.phase, Phase::down);
@@ -130,14 +144,14 @@ TEST(ContactTracker, KeepsItsPromisesForRandomPoints) {
   std::mt19937 random(11);
   std::uniform_real_distribution<double> place(0, 200);
   std::uniform_int_distribution<int> number(0, 10);
-  ContactTracker tracker({.up_after_missed_frames = 2});
+  ContactTracker tracker({.every_finger_touches = true, .up_after_missed_frames = 2});
   std::set<std::uint32_t> alive;
   std::set<std::uint32_t> ended;
   for (int i = 0; i < 5000; ++i) {
     ScreenPoints points;
     for (int n = number(random); n > 0; --n)
       points.push_back({place(random), place(random)});
-    const ContactStates& states = tracker.update(points, at(i));
+    const ContactStates& states = tracker.update(touches(points), at(i));
     std::set<std::uint32_t> seen;
     for (const ContactState& state : states) {
       ASSERT_TRUE(seen.insert(state.id).second) << "an id twice in a frame";
@@ -158,13 +172,13 @@ TEST(ContactTracker, KeepsItsPromisesForRandomPoints) {
 
 TEST(ContactTracker, AllocatesNothing) {
   if (!allocations_are_counted()) GTEST_SKIP() << "the sanitizer has its own heap";
-  ContactTracker tracker;
+  ContactTracker tracker({.every_finger_touches = true});
   const auto before = allocation_count();
   for (int i = 0; i < 100; ++i) {
     ScreenPoints points;
     for (int p = 0; p < i % 11; ++p)
       points.push_back({37.0 * p, 5.0 * i});
-    tracker.update(points, at(i));
+    tracker.update(touches(points), at(i));
   }
   EXPECT_EQ(allocation_count() - before, 0U);
 }

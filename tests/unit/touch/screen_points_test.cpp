@@ -26,18 +26,18 @@ class ScreenPointsOfFingers : public testing::Test {
 TEST_F(ScreenPointsOfFingers, AreWhereTheFingersTouch) {
   const Fingers fingers{finger_at({50, 250}), finger_at({300, 120})};
   const TouchedPoints touched = screen_points(fingers, model_, rig_.screen, image);
-  ASSERT_EQ(touched.points.size(), 2U);
+  ASSERT_EQ(touched.fingers.size(), 2U);
   EXPECT_EQ(touched.dropped, 0U);
-  EXPECT_NEAR(touched.points[0].x_mm, 50, 1e-9);
-  EXPECT_NEAR(touched.points[0].y_mm, 250, 1e-9);
-  EXPECT_NEAR(touched.points[1].x_mm, 300, 1e-9);
-  EXPECT_NEAR(touched.points[1].y_mm, 120, 1e-9);
+  EXPECT_NEAR(touched.fingers[0].screen.x_mm, 50, 1e-9);
+  EXPECT_NEAR(touched.fingers[0].screen.y_mm, 250, 1e-9);
+  EXPECT_NEAR(touched.fingers[1].screen.x_mm, 300, 1e-9);
+  EXPECT_NEAR(touched.fingers[1].screen.y_mm, 120, 1e-9);
 }
 
 TEST_F(ScreenPointsOfFingers, AreDroppedFarOutsideTheScreenAndCounted) {
   const Fingers fingers{finger_at({-15, 250}), finger_at({-25, 250}), finger_at({405, 250}), finger_at({100, 200})};
   const TouchedPoints touched = screen_points(fingers, model_, rig_.screen, image);
-  EXPECT_EQ(touched.points.size(), 2U);
+  EXPECT_EQ(touched.fingers.size(), 2U);
   EXPECT_EQ(touched.dropped, 2U);
 }
 
@@ -45,7 +45,7 @@ TEST_F(ScreenPointsOfFingers, AreDroppedWhereTheModelPlacesNothing) {
   Finger finger = finger_at({100, 200});
   finger.length_px = -1e5;
   const TouchedPoints touched = screen_points({finger}, model_, rig_.screen, image);
-  EXPECT_TRUE(touched.points.empty());
+  EXPECT_TRUE(touched.fingers.empty());
   EXPECT_EQ(touched.dropped, 1U);
 }
 

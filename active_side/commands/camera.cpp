@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <CLI/CLI.hpp>
+#include <iostream>
+#include <memory>
+
+#include "calibration/calibration_file.hpp"
+#include "calibration/screen_border.hpp"
+#include "capture/camera_tuning.hpp"
+#include "capture/finger_separation.hpp"
+#include "capture/measure_scene.hpp"
+#include "capture/webcam.hpp"
+#include "capture/webcam_device.hpp"
+#include "commands/config_options.hpp"
+#include "config/places.hpp"
+
+namespace telehug {
+namespace {
+
+constexpr Duration longest_wait = 500ms;
+
+struct Options {
+  ConfigOptions config;
+  double seconds = 60;
+};
+
+std::string device_of(const ActiveConfig& config) {
+  return config.camera.device.empty() ? first_webcam_device() : config.camera.device;
+}
+
+ExitCode list(const Options& options) {
+  const auto config = load_config(options.config);
+  if (!config) return fail(ExitCode::config, config.error());
+  CameraControls controls(kernel_v4l2_calls());
+  const std::string device = device_of(*config);
+  if (const Status opened = controls.open(device); !opened) return fail(ExitCode::device, opened.error());
+  fmt::print("{}\n{:<12}{:<36}{:>8}{:>8}{:>8}{:>9}\n", device, "id", "setting", "least", "most", "now", "default");
+  for (const CameraControl& control : controls.list()) {
+    fmt::print("0x{:08x}  {:<36}{:>8}{:>8}{:>8}{:>9}{}\n", control.id, control.name, control.minimum, control.maximum,
+               control.value, control.default_value, control.inactive ? "  (an automatic rules it)" : "");
+  }
+  return ExitCode::ok;
+}
+
+ExitCode restore(const Options& options) {
+  const auto config = load_config(options.config);
+  if (!config) return fail(ExitCode::config, config.error());
+  const auto count = put_back_camera(camera_before_file(config->rig), kernel_v4l2_calls());
+  if (!count) return fail(ExitCode::device, count.error());
+  fmt::print("{}\n", *count > 0 ? fmt::format("{} settings of the camera are as they were before telehug", *count)
+                                : "telehug has left nothing changed");
+  return ExitCode::ok;
+}
+
+// A picture that was taken after this call began.
+Result<Frame> fresh_picture(FrameSource& camera) {
+  Frame frame;
+  int fresh = 0;
+  for (int tries = 0; tries < 40; ++tries) {
+    if (camera.read(frame, longest_wait) == ReadOutcome::frame && ++fresh > settle_frames) return frame;
+  }
+  return Error{"no picture comes from the camera: " + camera.last_error()};
+}
+
+Result<Frame> asked_picture(FrameSource& camera, const char* request) {
+  fmt::print("{}, then press Enter. ", request);
+  (void)std::fflush(stdout);
+  std::string line;
+  if (!std::getline(std::cin, line)) return Error{"nobody answered: `camera tune` needs somebody at this terminal"};
+  return fresh_picture(camera);
+}
+
+Result<BorderPlace> border_in(const cv::Mat& picture, const ActiveConfig& config) {
+  const auto calibration = read_calibration(rig_file(config.rig));
+  if (calibration && calibration->image.width_px == picture.cols && calibration->image.height_px == picture.rows) {
+    return BorderPlace{calibration->border.v0_px, calibration->border.slope};
+  }
+  const auto found = find_screen_border(picture, BorderChoice::longest);
+  if (!found) return found.error();
+  return BorderPlace{found->line.v0_px, found->line.slope};
+}
+
+Result<Tuning> tune_at(FrameSource& camera, const std::string& device, const ActiveConfig& config, double seconds) {
+  auto without = asked_picture(camera, "Take your hands away from the screen");
+  if (!without) return without.error();
+  const cv::Mat empty = without->bgr.clone();
+  auto with = asked_picture(camera, "Lay one finger on the lower part of the screen, from below, and keep it there");
+  if (!with) return with.error();
+  const auto border = border_in(empty, config);
+  if (!border) return border.error();
+  const auto separation = FingerSeparation::find(empty, with->bgr, *border);
+  if (!separation) return separation.error();
+
+  CameraControls controls(kernel_v4l2_calls());
+  if (const Status opened = controls.open(device); !opened) return opened.error();
+  const auto tunable = tunable_controls(controls.list(), config.camera.fps);
+  if (tunable.empty()) return Error{device + " has no setting that could be tuned; set camera.preset to \"keep\""};
+  fmt::print("Trying settings for at most {:.0f} s; keep the finger where it is.\n", seconds);
+  const SteadyClock clock;
+  Frame frame;
+  TuningOptions tuning;
+  tuning.longest = std::chrono::duration_cast<Duration>(std::chrono::duration<double>(seconds));
+  return tune_camera(
+      tunable, [&](const ControlValue& value) { return controls.set(value); },
+      [&] { return measure_scene(camera, *separation, frame); }, tuning, clock);
+}
+
+ExitCode tune(const Options& options) {
+  const auto config = load_config(options.config);
+  if (!config) return fail(ExitCode::config, config.error());
+  const std::string device = device_of(*config);
+  // The automatics are off while it is tuned, and everything is put back at the end.
+  CaptureSettings capture = capture_settings(*config);
+  capture.webcam_setup.preset = CameraPreset::fixed;
+  const SteadyClock clock;
+  Webcam camera({device, capture.webcam_size, capture.webcam_fps, capture.webcam_setup}, clock);
+  if (const Status opened = camera.open(); !opened) return fail(ExitCode::device, opened.error());
+  const auto tuned = tune_at(camera, device, *config, options.seconds);
+  if (!tuned) return fail(ExitCode::device, tuned.error());
+  const std::filesystem::path file = tuned_camera_file(config->rig);
+  if (const Status kept = write_camera_memory(file, {device, tuned->values}); !kept)
+    return fail(ExitCode::device, kept.error());
+  fmt::print("separation of finger and border: {:.1f} before, {:.1f} now ({} measurements{})\n{}\n", tuned->before,
+             tuned->after, tuned->measurements, tuned->complete ? "" : ", not all: the time was over", file.string());
+  return ExitCode::ok;
+}
+
+}  // namespace
+
+void add_camera(CLI::App& app, ExitCode& result) {
+  auto options = std::make_shared<Options>();
+  CLI::App* camera = app.add_subcommand("camera", "The camera's settings: show, choose, put back");
+  camera->require_subcommand(1);
+  const auto add = [&](const char* name, const char* help, ExitCode (*command)(const Options&)) {
+    CLI::App* added = camera->add_subcommand(name, help);
+    add_config_options(*added, options->config);
+    added->callback([options, command, &result] { result = command(*options); });
+    return added;
+  };
+  add("list", "Show what can be set and how it is", &list);
+  add("tune", "Find the settings that tell a finger from the screen's border best, for camera.preset = \"auto\"", &tune)
+      ->add_option("--seconds", options->seconds, "How long it may take")
+      ->check(CLI::Range(5.0, 600.0))
+      ->capture_default_str();
+  add("restore", "Put back what a telehug that was killed has left changed", &restore);
+}
+
+}  // namespace telehug

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "make_detector.hpp"
+
+#include <fmt/core.h>
+
+#include "finger/background_file.hpp"
+
+namespace telehug {
+
+BorderStrip::Layout strip_layout(const Calibration& calibration) {
+  return {border_curve(upright(calibration)), calibration.image};
+}
+
+Result<BorderStrip> read_background_of(const std::filesystem::path& calibration_file, const Calibration& calibration) {
+  const std::filesystem::path path = background_file(calibration_file);
+  std::error_code ignored;
+  if (!std::filesystem::exists(path, ignored)) return Error{fmt::format("there is no {}", path.string())};
+  return read_background(path, strip_layout(calibration));
+}
+
+AnyDetector make_detector(const std::string& choice, const Calibration& calibration,
+                          const std::optional<BorderStrip>& background) {
+  const Calibration turned = upright(calibration);
+  if (choice == "thesis") return ThesisDetector(turned.border, turned.image);
+  return FingerDetector(border_curve(turned), turned.image, background);
+}
+
+}  // namespace telehug
