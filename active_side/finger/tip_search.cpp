@@ -16,11 +16,10 @@ constexpr double rare_cost = 0.06;  // longer ones need that much more evidence
 constexpr int outline_points = 25;
 constexpr std::array<double, 3> leans{-0.4, 0, 0.4};  // of the tip against the finger
 constexpr std::array<double, 2> widths{1.0, 0.88};    // of the tip against the finger
-constexpr std::array<double, 1> coarse_leans{0};
-constexpr std::array<double, 1> coarse_widths{1.0};
-constexpr double sides_weight = 0.4;    // the straight finger behind the tip must have sides,
-constexpr double beyond_weight = 0.35;  // and none beyond it
-constexpr double in_front_px = 24;      // of the border: a touch at the screen's edge, seen by its whole tip
+constexpr std::array<double, 1> first_widths{1.0};    // at the first look
+constexpr double sides_weight = 0.4;                  // the straight finger behind the tip must have sides,
+constexpr double beyond_weight = 0.35;                // and none beyond it
+constexpr double in_front_px = 24;  // of the border: a touch at the screen's edge, seen by its whole tip
 constexpr double step_px = 3;
 constexpr double apart_px = 10;
 constexpr int rows_per_sum = 2;  // as many as a cell of the edge map
@@ -153,7 +152,7 @@ TipSearch::Guesses TipSearch::find(const EdgeMap& edges, const FingerAxis& axis,
   const double step = step_px * scale;
   boost::container::static_vector<TipGuess, most_guesses + 1> coarse;
   for (double tip_v = first_v; tip_v < last_v; tip_v += 2 * step)
-    keep_strongest(coarse, best_at(edges, axis, tip_v, {coarse_widths, coarse_leans, 2}), apart_px * scale);
+    keep_strongest(coarse, best_at(edges, axis, tip_v, {first_widths, leans, 2}), apart_px * scale);
   Guesses guesses;
   for (const TipGuess& guess : coarse) {
     for (const double tip_v : {guess.tip_v - step, guess.tip_v, guess.tip_v + step}) {
