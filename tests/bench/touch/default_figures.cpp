@@ -60,6 +60,7 @@ Figures measure_default(ImageSize image, int fingers, const std::string& suffix)
   const RigCamera camera = known_camera(rig.settings);
   const BorderCurve border(camera, rig.settings.screen);
   FingerDetector detector(border, empty);
+  detector.know_camera(camera);
 
   TouchedRig touched{image, rig.settings.screen, RigModel{camera, 5}, {}};
   const auto wanted = static_cast<std::size_t>(fingers);

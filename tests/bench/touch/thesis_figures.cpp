@@ -41,6 +41,22 @@ Recording load(const std::filesystem::path& folder) {
   return recording;
 }
 
+// Whether a picture can be believed, before anything is looked for in it.
+Figure measure_frame_check(const Recording& recording) {
+  FrameCheck check(recording.rig.image, {recording.border.v0_px, recording.border.slope});
+  Figure figure{"touch.frame_check_1280x720", "ms"};
+  std::size_t believed = 0;
+  for (int i = 0; i < bench_warm_up_rounds + bench_rounds; ++i) {
+    const cv::Mat& picture = recording.rig.pictures[static_cast<std::size_t>(i) % recording.rig.pictures.size()];
+    Stopwatch watch;
+    believed += check.check(picture).verdict == FrameVerdict::good ? 1U : 0U;
+    const double ms = watch.lap_ms();
+    if (i >= bench_warm_up_rounds) figure.samples.push_back(ms);
+  }
+  if (believed == 0) throw std::runtime_error("no picture of the recording is believed");
+  return figure;
+}
+
 // The part of `detect` that cuts and filters: along the whole border, and the finger down to the picture's bottom.
 Figure measure_preprocessing(const Recording& recording) {
   const TouchedRig& rig = recording.rig;
