@@ -73,17 +73,18 @@ BackgroundStrip::RailView BackgroundStrip::view(const BorderStrip& strip, int ra
   return view;
 }
 
-// The same for all channels: the median over the rail of how much brighter the background was.
-float BackgroundStrip::first_gain(const RailView& rail) {
-  std::size_t n = 0;
-  for (int i = 0; i < columns_; i += median_step) {
-    const float now = rail.now[0][i] + rail.now[1][i] + rail.now[2][i];
-    const float then = rail.then[0][i] + rail.then[1][i] + rail.then[2][i];
-    scratch_[n++] = (then + dark) / (now + dark);
+// The median over the rail of how much brighter the background was.
+BackgroundStrip::Gain BackgroundStrip::first_gain(const RailView& rail) {
+  Gain gain;
+  for (std::size_t k = 0; k < gain.size(); ++k) {
+    std::size_t n = 0;
+    for (int i = 0; i < columns_; i += median_step)
+      scratch_[n++] = (rail.then[k][i] + dark) / (rail.now[k][i] + dark);
+    const auto middle = scratch_.begin() + static_cast<std::ptrdiff_t>(n / 2);
+    std::nth_element(scratch_.begin(), middle, scratch_.begin() + static_cast<std::ptrdiff_t>(n));
+    gain[k] = *middle;
   }
-  const auto middle = scratch_.begin() + static_cast<std::ptrdiff_t>(n / 2);
-  std::nth_element(scratch_.begin(), middle, scratch_.begin() + static_cast<std::ptrdiff_t>(n));
-  return *middle;
+  return gain;
 }
 
 // From the cells that look like background with the gain so far.
@@ -108,8 +109,7 @@ const std::vector<float>& BackgroundStrip::distance(const BorderStrip& strip) {
   float alike = 0;
   for (int r = 0; r < BorderStrip::rails; ++r) {
     const RailView rail = view(strip, r);
-    Gain gain;
-    gain.fill(first_gain(rail));
+    Gain gain = first_gain(rail);
     for (int round = 0; round < levelling_rounds; ++round)
       gain = better_gain(rail, gain);
     gain_[static_cast<std::size_t>(r)] = gain;

@@ -53,7 +53,7 @@ class BackgroundStrip {
   [[nodiscard]] RailView view(const BorderStrip& strip, int rail) const;
   [[nodiscard]] static float difference_at(const RailView& rail, const Gain& gain, std::size_t channel, int column);
   [[nodiscard]] static float distance2(const RailView& rail, const Gain& gain, int column);
-  [[nodiscard]] float first_gain(const RailView& rail);
+  [[nodiscard]] Gain first_gain(const RailView& rail);
   [[nodiscard]] Gain better_gain(const RailView& rail, const Gain& gain) const;
 
   int columns_;

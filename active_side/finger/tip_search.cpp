@@ -24,20 +24,21 @@ constexpr double step_px = 3;
 constexpr double apart_px = 10;
 constexpr int rows_per_sum = 2;  // as many as a cell of the edge map
 
-// Keeps the strongest of those guesses that are close together, and of them the strongest.
+// Keeps the strongest guesses, and only the strongest of those that are close together.
 template <typename Guesses>
 void keep_strongest(Guesses& guesses, const TipGuess& guess, double apart) {
-  const auto close = std::find_if(guesses.begin(), guesses.end(),
-                                  [&](const TipGuess& other) { return std::abs(other.tip_v - guess.tip_v) < apart; });
-  if (close != guesses.end()) {
-    if (guess.strength > close->strength) *close = guess;
-  } else if (guesses.size() < guesses.capacity()) {
-    guesses.push_back(guess);
-  } else {
-    const auto weakest = std::min_element(guesses.begin(), guesses.end(),
-                                          [](const auto& x, const auto& y) { return x.strength < y.strength; });
-    if (guess.strength > weakest->strength) *weakest = guess;
+  const auto is_close = [&](const TipGuess& other) { return std::abs(other.tip_v - guess.tip_v) < apart; };
+  const auto is_weaker = [](const TipGuess& x, const TipGuess& y) { return x.strength < y.strength; };
+  for (const TipGuess& other : guesses) {
+    if (is_close(other) && !is_weaker(other, guess)) return;
   }
+  guesses.erase(std::remove_if(guesses.begin(), guesses.end(), is_close), guesses.end());
+  if (guesses.size() < guesses.capacity()) {
+    guesses.push_back(guess);
+    return;
+  }
+  const auto weakest = std::min_element(guesses.begin(), guesses.end(), is_weaker);
+  if (is_weaker(*weakest, guess)) *weakest = guess;
 }
 
 }  // namespace

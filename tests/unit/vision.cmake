@@ -20,6 +20,11 @@ telehug_test(test_finger KIND unit SUBJECT touch
           unit/finger/finger_edges_test.cpp unit/finger/mirror_evidence_test.cpp
           unit/finger/recorded_mirrors_test.cpp unit/finger/thesis_detector_test.cpp
   DEPS active_finger telehug_pictures opencv::imgproc)
+telehug_test(test_finger_stages KIND unit SUBJECT touch
+  SOURCES doubles/allocation_counter.cpp unit/finger/background_strip_test.cpp unit/finger/border_strip_test.cpp
+          unit/finger/crossing_test.cpp unit/finger/edge_map_test.cpp unit/finger/tip_search_test.cpp
+          unit/finger/tip_shape_test.cpp
+  DEPS active_finger opencv::core)
 telehug_test(test_touch KIND unit SUBJECT touch
   SOURCES doubles/allocation_counter.cpp unit/touch/contact_tracker_test.cpp
           unit/touch/gesture_recogniser_test.cpp unit/touch/screen_points_test.cpp
