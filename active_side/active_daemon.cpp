@@ -134,7 +134,7 @@ void ActiveDaemon::take_frame() {
       return;
     case ReadOutcome::broken:
       frames_broken_.add();
-      return;
+      break;
     case ReadOutcome::timeout:
       break;
     case ReadOutcome::ended:

@@ -50,7 +50,8 @@ const TouchEvent* ActivePipeline::process(const Frame& frame, const BodyMap& map
   const Timestamp checked = clock_.now();
   check_latency_.record(checked - started);
   count(findings);
-  if (findings.verdict != FrameVerdict::good) return report({}, Scene::disturbed, map, sending, frame.time);
+  const Timestamp time = rising(frame.time);
+  if (findings.verdict != FrameVerdict::good) return report(tracker_.pass(time), map, sending, time);
 
   const Fingers& fingers = detect(detector_, picture);
   if (!findings.settling) adapt(detector_, started);
@@ -60,12 +61,16 @@ const TouchEvent* ActivePipeline::process(const Frame& frame, const BodyMap& map
   const TouchedPoints touched = screen_points(believed ? fingers : Fingers{}, camera_watch_.model(), screen_, image_);
   fingers_off_screen_.add(touched.dropped);
   // What seems to begin while the light changes is the light's doing.
-  const bool disturbed = findings.settling || !knows_background();
-  return report(touched.fingers, disturbed ? Scene::disturbed : Scene::steady, map, sending, frame.time);
+  const Scene scene = findings.settling || !knows_background() ? Scene::disturbed : Scene::steady;
+  const Timestamp placed = clock_.now();
+  const ContactStates& contacts = tracker_.update(touched.fingers, time, scene);
+  touch_latency_.record(clock_.now() - placed);
+  return report(contacts, map, sending, time);
 }
 
 const TouchEvent* ActivePipeline::process_nothing(const BodyMap& map, bool sending) {
-  return report({}, Scene::steady, map, sending, clock_.now());
+  const Timestamp now = rising(clock_.now());
+  return report(tracker_.pass(now), map, sending, now);
 }
 
 bool ActivePipeline::knows_background() const noexcept {
@@ -83,20 +88,20 @@ void ActivePipeline::count(const FrameFindings& findings) {
   if (const BackgroundLearner* const learner = background(detector_)) background_relearned_.set(learner->relearned());
 }
 
-const TouchEvent* ActivePipeline::report(const FingerObservations& fingers, Scene scene, const BodyMap& map, bool sending,
+Timestamp ActivePipeline::rising(Timestamp time) {
+  return newest_ = std::max(time, newest_ + Duration{1});
+}
+
+const TouchEvent* ActivePipeline::report(const ContactStates& contacts, const BodyMap& map, bool sending,
                                          Timestamp frame_time) {
-  const Timestamp started = clock_.now();
-  // A camera that comes back stamps its first frame a little before the time at which it was last missed.
-  frame_time = newest_ = std::max(frame_time, newest_ + Duration{1});
-  const auto body = map.version != 0 ? std::optional(map.grid) : std::nullopt;
-  contacts_ = &gestures_.update(tracker_.update(fingers, frame_time, scene), body);
   const Timestamp tracked = clock_.now();
+  const auto body = map.version != 0 ? std::optional(map.grid) : std::nullopt;
+  contacts_ = &gestures_.update(contacts, body);
   const BoxedContacts boxed = sending ? boxes_under(*contacts_, map, max_map_age_, tracked, nobody_) : BoxedContacts{};
   const TouchEvent* event = builder_.build(boxed, map.shape, map.version, frame_time, clock_.now());
 
   const auto begins = [](const ContactState& contact) { return contact.phase == Phase::down; };
   touches_seen_.add(static_cast<std::uint64_t>(std::count_if(contacts_->begin(), contacts_->end(), begins)));
-  touch_latency_.record(tracked - started);
   box_latency_.record(clock_.now() - tracked);
   return event;
 }

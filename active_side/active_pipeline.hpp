@@ -21,7 +21,7 @@ namespace telehug {
 
 struct ActivePipelineOptions {
   FrameCheckOptions frames;
-  TrackerOptions tracker{.every_finger_touches = true};  // detectors can't tell
+  TrackerOptions tracker{.every_finger_touches = true};  // see tracker_options()
   GestureOptions gestures;
   Duration max_map_age = 3s;
 };
@@ -53,8 +53,9 @@ class ActivePipeline {
 
  private:
   void count(const FrameFindings& findings);
-  const TouchEvent* report(const FingerObservations& fingers, Scene scene, const BodyMap& map, bool sending,
-                           Timestamp frame_time);
+  // From here on time rises: a camera that comes back stamps its first frame a little before it was last missed.
+  Timestamp rising(Timestamp time);
+  const TouchEvent* report(const ContactStates& contacts, const BodyMap& map, bool sending, Timestamp frame_time);
 
   ImageSize image_;
   ScreenSize screen_;

@@ -3,7 +3,11 @@
 
 #include <fmt/core.h>
 
+#include <utility>
+#include <variant>
+
 #include "finger/background_file.hpp"
+#include "touch/camera_foot.hpp"
 
 namespace telehug {
 
@@ -22,7 +26,19 @@ AnyDetector make_detector(const std::string& choice, const Calibration& calibrat
                           const std::optional<BorderStrip>& background) {
   const Calibration turned = upright(calibration);
   if (choice == "thesis") return ThesisDetector(turned.border, turned.image);
-  return FingerDetector(border_curve(turned), turned.image, background);
+  FingerDetector detector(border_curve(turned), turned.image, background);
+  if (const auto* const rig = std::get_if<RigCalibration>(&turned.solved)) {
+    detector.know_camera(rig->solution.model.camera);
+  }
+  return detector;
+}
+
+TrackerOptions tracker_options(const Calibration& calibration, const AnyDetector& detector) {
+  const auto* const rig = std::get_if<RigCalibration>(&calibration.solved);
+  TrackerOptions options;
+  options.every_finger_touches = rig == nullptr || !std::holds_alternative<FingerDetector>(detector);
+  if (rig != nullptr) options.camera = camera_foot(rig->solution.model.camera, calibration.screen);
+  return options;
 }
 
 }  // namespace telehug

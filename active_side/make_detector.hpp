@@ -8,6 +8,7 @@
 #include "calibration/calibration.hpp"
 #include "common/result.hpp"
 #include "finger/any_detector.hpp"
+#include "touch/contact_tracker.hpp"
 
 namespace telehug {
 
@@ -18,8 +19,12 @@ namespace telehug {
 Result<BorderStrip> read_background_of(const std::filesystem::path& calibration_file, const Calibration& calibration);
 
 // `choice`: "thesis" or "default", which learns the background by itself if there is none. For the calibration's
-// upright pictures. Throws std::invalid_argument if no finger could be seen with this calibration.
+// upright pictures. With the default model it also looks for mirror images. Throws std::invalid_argument if no finger
+// could be seen with this calibration.
 AnyDetector make_detector(const std::string& choice, const Calibration& calibration,
                           const std::optional<BorderStrip>& background);
+
+// Only the default detector with the default model can tell touching from hovering.
+[[nodiscard]] TrackerOptions tracker_options(const Calibration& calibration, const AnyDetector& detector);
 
 }  // namespace telehug

@@ -50,7 +50,6 @@ Result<std::unique_ptr<Rig>> make_rig(const ActiveConfig& config, const SessionI
   ActivePipelineOptions options;
   const bool real_camera = config.camera.source.starts_with("webcam");
   if (!real_camera) options.frames.frozen_after = 0;
-  options.tracker.up_after = std::chrono::milliseconds(config.touch.up_after_ms);
   options.max_map_age = std::chrono::milliseconds(config.body_map.max_age_ms);
   BodyMapStepConfig step;
   step.screen = screen;
@@ -72,6 +71,8 @@ Result<std::unique_ptr<Rig>> make_rig(const ActiveConfig& config, const SessionI
       }
     }
     AnyDetector detector = make_detector(config.touch.detector, *calibration, background);
+    options.tracker = tracker_options(*calibration, detector);
+    options.tracker.up_after = std::chrono::milliseconds(config.touch.up_after_ms);
     return std::make_unique<Rig>(
         Rig{ActivePipeline(*calibration, std::move(detector), options, session, clock, metrics), std::move(face),
             config.touch.detector, calibration->model_name(), note});

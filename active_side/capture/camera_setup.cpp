@@ -85,6 +85,8 @@ void CameraSetup::apply(const std::string& device) {
     if (!memory) complain(memory.error());
     if (memory && *memory && (*memory)->device == device) tuned = (*memory)->controls;
   }
+  // Asking a USB camera costs a transfer for each setting.
+  if (settings_.preset != CameraPreset::fixed && tuned.empty() && settings_.power_line_hz == 0) return;
   CameraControls controls(calls_);
   if (const Status opened = controls.open(device); !opened) return complain(opened.error());
   const auto known = controls.list();

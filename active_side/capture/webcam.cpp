@@ -18,6 +18,7 @@ namespace telehug {
 namespace {
 
 constexpr std::uint32_t wanted_buffers = 4;  // one being filled, one being read, two against hiccups
+constexpr int most_odd_sizes = 15;           // half a second; then the camera is set up again
 constexpr Duration oldest_believable = 10s;  // a kernel time before that is no time of taking
 
 std::string fourcc(std::uint32_t format) {
@@ -184,8 +185,8 @@ Status Webcam::start_stream() {
   int type = V4L2_BUF_TYPE_VIDEO_CAPTURE;
   if (const int code = calls_.ioctl(fd_, VIDIOC_STREAMON, &type); code < 0)
     return webcam_failure(settings_.device, "started", code);
-  streaming_ = true;
-  first_since_start_ = true;
+  streaming_ = first_since_start_ = true;
+  odd_sizes_ = 0;
   return Done{};
 }
 
@@ -216,6 +217,7 @@ ReadOutcome Webcam::read(Frame& frame, Duration timeout) {
   first_since_start_ = false;
   const ReadOutcome outcome = decode(newest, frame);
   if (const int queued = queue(newest.index); queued < 0 && outcome != ReadOutcome::frame) return lose(queued);
+  if (odd_sizes_ >= most_odd_sizes) return let_go("delivers pictures of another size and is set up again");
   return outcome;  // a picture that was read counts; if the camera is gone, the next read() notices
 }
 
@@ -252,6 +254,7 @@ ReadOutcome Webcam::decode(const Picture& picture, Frame& frame) {
   if (pixel_format_ == V4L2_PIX_FMT_MJPEG) {
     if (const Status decoded = jpeg_.decode(bytes, frame.bgr); !decoded) return broken(decoded.error().message);
     if (frame.bgr.cols != size_.width_px || frame.bgr.rows != size_.height_px) {
+      ++odd_sizes_;
       return broken(fmt::format("a picture of {}x{} pixels came", frame.bgr.cols, frame.bgr.rows));
     }
   } else {
@@ -261,6 +264,7 @@ ReadOutcome Webcam::decode(const Picture& picture, Frame& frame) {
     const cv::Mat yuyv(size_.height_px, size_.width_px, CV_8UC2, buffers_[picture.index].data, bytes_per_line_);
     cv::cvtColor(yuyv, frame.bgr, cv::COLOR_YUV2BGR_YUYV);
   }
+  odd_sizes_ = 0;
   frame.sequence = sequence_;
   frame.time = picture.time;
   return ReadOutcome::frame;
@@ -273,7 +277,11 @@ ReadOutcome Webcam::broken(std::string why) {
 }
 
 ReadOutcome Webcam::lose(int code) {
-  last_error_ = fmt::format("{} is gone ({}); plug it in again", settings_.device, std::strerror(-code));
+  return let_go(fmt::format("is gone ({}); plug it in again", std::strerror(-code)));
+}
+
+ReadOutcome Webcam::let_go(const std::string& why) {
+  last_error_ = settings_.device + ' ' + why;
   stop();
   retry_.tried(clock_.now());
   return ReadOutcome::lost;

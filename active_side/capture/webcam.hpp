@@ -23,7 +23,8 @@ struct WebcamSettings {
 
 // A V4L2 webcam that delivers MJPEG or YUYV. Of several waiting pictures the newest is read. Frames carry the kernel's
 // time of taking if it is CLOCK_MONOTONIC, else the time of reading. When the camera is unplugged, read() says `lost`
-// and looks for it again at most every 500 ms until close().
+// and looks for it again at most every 500 ms until close(). It does the same with one whose pictures have lost the
+// agreed size.
 class Webcam final : public FrameSource {
  public:
   // `clock` and `calls` must outlive the webcam.
@@ -75,6 +76,7 @@ class Webcam final : public FrameSource {
   int queue(std::uint32_t index);
   ReadOutcome decode(const Picture& picture, Frame& frame);
   ReadOutcome lose(int code);
+  ReadOutcome let_go(const std::string& why);
   ReadOutcome try_again(Timestamp deadline);
   ReadOutcome broken(std::string why);
 
@@ -95,6 +97,7 @@ class Webcam final : public FrameSource {
   std::uint32_t driver_sequence_ = 0;
   bool first_since_start_ = true;
   std::uint64_t sequence_ = 0;
+  int odd_sizes_ = 0;  // pictures of another size than was agreed, in a row
   std::uint64_t broken_frames_ = 0;
   std::uint64_t skipped_frames_ = 0;
   std::string last_error_;

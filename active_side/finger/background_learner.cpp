@@ -8,8 +8,8 @@ namespace {
 
 // Shares of the strip that look as always. Two hands and their shadows leave more of it as it was than a light that
 // comes from elsewhere; one that only becomes brighter is levelled out before.
-constexpr double disturbed_below = 0.2;
-constexpr double calm_above = 0.4;
+constexpr double disturbed_below = 0.3;
+constexpr double calm_above = 0.45;
 // Automatic exposures settle within a second. What looks like a finger meanwhile may be one: it is waited for, but not
 // for long, because without a background everything may look like one.
 constexpr Duration relearn_after_quiet = 1s;

@@ -138,6 +138,7 @@ void FingerDetector::add_finger(const cv::Mat& bgr, std::size_t which) {
   if (length_px <= 0 || shape.tip.v_px >= last_v || shape.tip.u_px < 0 || shape.tip.u_px > image_.width_px - 1) return;
   Finger finger{shape.tip, length_px, axis.centre_u(border_v) - a, axis.centre_u(border_v) + a};
   finger.width_px = 2 * shape.half_width_px;
+  finger.tip_radius_px = shape.half_width_px * shape.half_width_px / shape.half_length_px;
   if (const auto normal = camera_ ? screen_normal(*camera_, shape.tip) : std::nullopt) {
     finger.px_per_mm = normal->px_per_mm;
     finger.mirror = mirror_evidence(bgr, outline(axis, contour, shape.tip), *normal);

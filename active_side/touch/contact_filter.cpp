@@ -52,13 +52,13 @@ void normalise(States& states) {
 
 }  // namespace
 
-ContactFilter::ContactFilter(const CameraFoot& camera, const ContactFilterOptions& options,
+ContactFilter::ContactFilter(const CameraFoot& camera, const ContactFilterOptions& options, const FingerWidth& known,
                              const FingerObservation& first, std::optional<double> seconds_unseen)
     : camera_(camera), options_(options), belief_{0.6, 0.39, 0.01} {
   remember(first);
   if (seconds_unseen && *seconds_unseen > 0) came_over_border(*seconds_unseen);
   weigh_mirror(first.mirror);
-  weigh_width(first, {std::log(15), options_.finger_widths});
+  weigh_width(first, known);
 }
 
 // It was not there a frame ago, so it came over the bottom edge since: with at least this speed.
@@ -169,7 +169,11 @@ std::array<ContactFilter::States, 3> ContactFilter::transitions(const Step& step
 }
 
 void ContactFilter::update(const FingerObservation& finger, double seconds, const FingerWidth& known) {
-  if (comparable_ && seconds > 0) {
+  if (!comparable_) {
+    remember(finger);
+    return;
+  }
+  if (seconds > 0) {
     const Step step = step_to(finger, seconds);
     const auto p = transitions(step);
     States next{};

@@ -27,12 +27,11 @@ struct ContactFilterOptions {
   double tip_noise_px = 0.7;      // standard deviation of a tip of quality 1
   double mirror_log_ratio = 2.3;  // log odds of a mirror verdict of confidence 1: right 10 times as often as wrong
   double width_noise = 0.07;      // relative standard deviation of a measured width, from frame to frame
-  double finger_widths = 0.15;    // of people's fingers
-  double known_width = 0.08;      // of the fingers of those who have just touched
+  double known_width = 0.08;      // of the fingers of people who have touched
   // Hands: a touch meets the screen faster than this, a hand that comes to rest in the air is slower in the end.
   double impact_mm_s = 60;
   double lift_mm_s = 150;     // mean speed of a finger in the first frame after it left the screen
-  double drift_mm_s = 8;      // of a hand that nothing supports, in height
+  double drift_mm_s = 6;      // of a hand that nothing supports, in height
   double air_mm_s2 = 5000;    // acceleration of a hand in the air
   double slide_mm_s2 = 6000;  // and along the screen: a stroke of 200 mm in 0.35 s reaches 1 m/s with 9 m/s2
   double across_mm_s = 60;    // speed along the screen while it lands or is lifted
@@ -44,16 +43,17 @@ struct ContactFilterOptions {
   double dropout = 0.01;  // share of frames in which a finger that is there is not found
 };
 
-// Width of the fingers that touched lately, shared by all tracks: natural logarithm of mm and its standard deviation.
+// How wide fingers are: natural logarithm of mm and its standard deviation. Of people nobody has seen: 15 mm, 15 %.
 struct FingerWidth {
-  double log_mm = 2.71;  // 15 mm
+  double log_mm = 2.708;
   double sd = 0.15;
 };
 
 class ContactFilter {
  public:
-  ContactFilter(const CameraFoot& camera, const ContactFilterOptions& options, const FingerObservation& first,
-                std::optional<double> seconds_unseen);
+  // `seconds_unseen`: since the last frame, in which this finger was not there; nothing: unknown.
+  ContactFilter(const CameraFoot& camera, const ContactFilterOptions& options, const FingerWidth& known,
+                const FingerObservation& first, std::optional<double> seconds_unseen);
 
   // The same finger in a later frame, `seconds` > 0 after it was last seen.
   void update(const FingerObservation& finger, double seconds, const FingerWidth& known);

@@ -40,7 +40,25 @@ const ContactStates& ContactTracker::update(const FingerObservations& fingers, T
     if (!taken[f]) begin(fingers[f], frame_time);
   }
   steady_frame_ = scene == Scene::steady ? std::optional(frame_time) : std::nullopt;
+  collect();
+  return states_;
+}
 
+const ContactStates& ContactTracker::pass(Timestamp now) {
+  forget_ended();
+  for (Track& track : tracks_) {
+    const bool ends = now - track.seen_at >= options_.up_after_no_picture;
+    if (ends) track.missed_frames = options_.up_after_missed_frames;
+    if (!track.contact) continue;
+    track.contact->phase = ends ? Phase::up : Phase::move;
+    track.contact->speed_mm_s = 0;
+    if (ends) track.contact->frame_time = now;
+  }
+  collect();
+  return states_;
+}
+
+void ContactTracker::collect() {
   states_.clear();
   hovering_.clear();
   for (const Track& track : tracks_) {
@@ -48,7 +66,6 @@ const ContactStates& ContactTracker::update(const FingerObservations& fingers, T
     if (!track.contact && track.missed_frames == 0) hovering_.push_back({track.seen, track.filter.touching()});
   }
   std::ranges::sort(states_, {}, &ContactState::id);
-  return states_;
 }
 
 // A finger whose contact ended may still be there, in the air.
@@ -139,8 +156,8 @@ void ContactTracker::miss(Track& track, Timestamp frame_time, Scene scene) {
 
 void ContactTracker::begin(const FingerObservation& finger, Timestamp frame_time) {
   const auto unseen = steady_frame_ ? std::optional(seconds_between(*steady_frame_, frame_time)) : std::nullopt;
-  tracks_.push_back({{options_.camera, options_.filter, finger, unseen},
-                     OneEuroFilter(options_.smoothing),
+  tracks_.push_back({{options_.camera, options_.filter, known_width_, finger, unseen},
+                     ContactSmoothing(options_.smoothing),
                      finger.screen,
                      frame_time,
                      0,

@@ -10,9 +10,9 @@
 #include "common/messages.hpp"
 #include "touch/assignment.hpp"
 #include "touch/contact_filter.hpp"
+#include "touch/contact_smoothing.hpp"
 #include "touch/contact_state.hpp"
 #include "touch/finger_observation.hpp"
-#include "touch/one_euro_filter.hpp"
 
 namespace telehug {
 
@@ -27,16 +27,18 @@ struct TrackerOptions {
   // A contact whose finger is not seen is held at its last place, and ends with the first of these two; or before,
   // where it more likely was lifted out of sight.
   int up_after_missed_frames = 3;
-  Duration up_after = 100ms;            // since it was last seen
-  Duration up_after_disturbed = 300ms;  // likewise, while the scene is disturbed
+  Duration up_after = 100ms;             // since it was last seen
+  Duration up_after_disturbed = 300ms;   // likewise, while the scene is disturbed
+  Duration up_after_no_picture = 150ms;  // likewise, while no picture comes; slow cameras deliver 10 a second
   // Probabilities of touching.
   double down_above = 0.65;
   double up_below = 0.4;
   // A finger that touched so surely and is not seen may be found again in the next frame: its contact waits for that.
   double wait_above = 0.85;
   CameraFoot camera = {};
+  FingerWidth finger_width = {};  // until somebody has touched; better: as measured in the calibration's touches
   ContactFilterOptions filter = {};
-  OneEuroOptions smoothing = {};
+  ContactSmoothingOptions smoothing = {};
 };
 
 // A finger in front of the screen, at the place where it would be if it touched.
@@ -50,20 +52,24 @@ using HoveringFingers = boost::container::static_vector<HoveringFinger, max_cont
 // identity that lives from down to up. Up to max_contacts fingers at a time; a frame's fingers beyond that wait until a
 // place is free. Allocates nothing.
 //
-// What waiting buys: with a mirror image a touch is down in the frame in which it begins or in the next one, without
-// one when the approach has ended, in the next one. It is up in the frame in which the finger leaves, or the next one.
-// A hand that brakes softly and rests a few millimetres off a matt screen can't be told from a touch by its motion,
-// only by its width, and then only from about 10 mm on: see down_above.
+// How late: with a mirror image a touch is down in the frame in which it begins or in the next one; without one in the
+// next one, when the approach has ended. It is up in the frame in which the finger leaves, or in the next one. How
+// often wrong: see ARCHITECTURE.md. A hand that brakes softly and waits a few millimetres off a matt screen moves like
+// one that touches softly; then only the width tells, from about 10 mm on. A higher `down_above` takes fewer such hands
+// for a touch, and takes longer for soft touches.
 class ContactTracker {
  public:
-  explicit ContactTracker(const TrackerOptions& options = {}) : options_(options) {}
+  explicit ContactTracker(const TrackerOptions& options = {}) : options_(options), known_width_(options.finger_width) {}
 
   // The contacts of this frame, in the order of their ids: every one that lives once (down, then move, also while it is
   // held, with the time at which it was last seen), and those that end now (up, with this frame's time). The result
-  // lives until the next call. `frame_time` must rise; with no frames at all (camera lost), call it with no fingers and
-  // the present time, so that contacts end. In a disturbed scene contacts move, but none begins, and none ends unless
-  // its finger is gone for long.
+  // lives until the next call. `frame_time` must rise. In a disturbed scene contacts move, but none begins, and none
+  // ends unless its finger is gone for long.
   const ContactStates& update(const FingerObservations& fingers, Timestamp frame_time, Scene scene = Scene::steady);
+
+  // While no frame comes (a slow camera, one that is lost or not wanted): that says nothing about fingers, but after a
+  // while contacts end. `now` as `frame_time`.
+  const ContactStates& pass(Timestamp now);
 
   // Of the last frame: fingers that are seen but don't touch.
   [[nodiscard]] const HoveringFingers& hovering() const noexcept { return hovering_; }
@@ -71,7 +77,7 @@ class ContactTracker {
  private:
   struct Track {
     ContactFilter filter;
-    OneEuroFilter smoothing;
+    ContactSmoothing smoothing;
     ScreenPoint seen;  // as observed
     Timestamp seen_at;
     double x_mm_s = 0;  // of `seen`
@@ -83,6 +89,7 @@ class ContactTracker {
   using Taken = std::array<bool, max_contacts>;
 
   void forget_ended();
+  void collect();
   [[nodiscard]] double cost(const Track& track, const ScreenPoint& point, double seconds) const;
   void follow(Track& track, const FingerObservation& finger, Timestamp frame_time, Scene scene);
   void miss(Track& track, Timestamp frame_time, Scene scene);

@@ -26,10 +26,10 @@ struct ContactScore {
   int split = 0;                        // contacts with more than one
   int spurious = 0;                     // downs without a contact
   int hovers = 0;
-  int hovers_touched = 0;                       // gestures that only hover, with a down
-  std::array<int, 4> hovering_frames{};         // from 5, 10, 15, 20 mm
-  std::array<int, 4> hovering_touched{};        // those taken for a touch
-  std::array<int, 4> hovering_seen_frames{};    // those in which the finger is seen at all
+  int hovers_touched = 0;                     // gestures that only hover, with a down
+  std::array<int, 4> hovering_frames{};       // from 5, 10, 15, 20 mm
+  std::array<int, 4> hovering_touched{};      // those taken for a touch
+  std::array<int, 4> hovering_seen_frames{};  // those in which the finger is seen at all
   [[nodiscard]] static double share(int part, int whole) { return whole == 0 ? 0 : double(part) / whole; }
   [[nodiscard]] static double within(const std::map<int, int>& late, int frames) {
     int all = 0, good = 0;

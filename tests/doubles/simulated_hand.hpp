@@ -2,8 +2,8 @@
 //
 // Fingers that approach a screen, touch it or not, and leave, as a rig's camera and a detector with faults see them.
 //
-// Reaching follows the minimum-jerk profile (Flash, Hogan, J. Neurosci. 1985), and a touch aims behind the screen, which
-// stops it; or it follows the power law of the ray-traced samples (h = 90 mm (1 - u)^1.4 down, 80 mm u^1.5 up).
+// Reaching follows the minimum-jerk profile (Flash, Hogan, J. Neurosci. 1985), and a touch aims behind the screen,
+// which stops it; or it follows the power law of the ray-traced samples (h = 90 mm (1 - u)^1.4 down, 80 mm u^1.5 up).
 #pragma once
 
 #include <algorithm>

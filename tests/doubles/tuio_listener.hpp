@@ -5,6 +5,7 @@
 
 #include <lo/lo.h>
 
+#include <cstring>
 #include <map>
 #include <string>
 #include <utility>
@@ -40,22 +41,30 @@ class TuioListener {
   [[nodiscard]] bool silent() { return lo_server_recv_noblock(server_, 0) == 0; }
 
  private:
+  // OSC aligns to 4 bytes, liblo's lo_arg asks for 8: its members must not be read where they lie.
+  static const char* text_of(const lo_arg* value) { return reinterpret_cast<const char*>(value); }
+  template <typename T>
+  static T number_of(const lo_arg* value) {
+    T number{};
+    std::memcpy(&number, static_cast<const void*>(value), sizeof(number));
+    return number;
+  }
   static int take(const char* /*path*/, const char* types, lo_arg** values, int count, lo_message /*message*/,
                   void* listener) {
     static_cast<TuioListener*>(listener)->take(types, values, count);
     return 0;
   }
   void take(const std::string& types, lo_arg** values, int count) {
-    const std::string kind = &values[0]->s;
-    if (kind == "source") now_.source = types == "ss" ? &values[1]->s : "wrong types " + types;
+    const std::string kind = text_of(values[0]);
+    if (kind == "source") now_.source = types == "ss" ? text_of(values[1]) : "wrong types " + types;
     for (int i = 1; kind == "alive" && i < count; ++i)
-      now_.alive.push_back(values[i]->i);
+      now_.alive.push_back(number_of<int>(values[i]));
     if (kind == "set" && types == "sifffff") {
       for (int i = 2; i < count; ++i)
-        now_.set[values[1]->i].push_back(values[i]->f);
+        now_.set[number_of<int>(values[1])].push_back(number_of<float>(values[i]));
     }
     if (kind != "fseq") return;
-    now_.fseq = values[1]->i;
+    now_.fseq = number_of<int>(values[1]);
     bundles_.push_back(std::exchange(now_, {}));
   }
 

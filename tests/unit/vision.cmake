@@ -25,8 +25,12 @@ telehug_test(test_finger_stages KIND unit SUBJECT touch
           unit/finger/crossing_test.cpp unit/finger/edge_map_test.cpp unit/finger/tip_search_test.cpp
           unit/finger/tip_shape_test.cpp
   DEPS active_finger opencv::core)
+telehug_test(test_background KIND unit SUBJECT touch
+  SOURCES unit/finger/background_file_test.cpp unit/finger/background_learner_test.cpp
+  DEPS active_finger telehug_pictures)
 telehug_test(test_touch KIND unit SUBJECT touch
-  SOURCES doubles/allocation_counter.cpp unit/touch/contact_tracker_test.cpp
-          unit/touch/gesture_recogniser_test.cpp unit/touch/screen_points_test.cpp
+  SOURCES doubles/allocation_counter.cpp unit/touch/assignment_test.cpp unit/touch/contact_smoothing_test.cpp
+          unit/touch/contact_tracker_test.cpp unit/touch/finger_tracks_test.cpp unit/touch/gesture_recogniser_test.cpp
+          unit/touch/sample_sequences_test.cpp unit/touch/screen_points_test.cpp unit/touch/touch_decision_test.cpp
   DEPS active_touch active_calibration)
 telehug_test(test_eval KIND unit SUBJECT touch SOURCES unit/eval/touch_score_test.cpp DEPS active_eval)

@@ -5,11 +5,14 @@
 
 #include <gtest/gtest.h>
 
+#include <opencv2/core.hpp>
+
 #include "body_map/vitruvian_grid.hpp"
 #include "doubles/allocation_counter.hpp"
 #include "doubles/drawn_finger.hpp"
 #include "doubles/example_messages.hpp"
 #include "doubles/fake_clock.hpp"
+#include "make_detector.hpp"
 
 namespace telehug {
 namespace {
@@ -26,6 +29,14 @@ Calibration calibration() {
                            MeasuredTouch{{230, 220}, 28800 * (1 / 280.0 - 1 / 360.0), 900 * 30 / 280.0}};
   auto model = ThesisTouchModel::solve(screen, touches[0], touches[1]);
   return {"drawn", "2026-11-22T00:00:00Z", image, screen, border, ThesisCalibration{touches, model.value()}};
+}
+
+// As `run` chooses it; for the default one nobody() shows the empty rig.
+AnyDetector detector_of(const Calibration& rig, const std::string& choice, const cv::Mat& empty) {
+  const BorderStrip::Layout layout = strip_layout(rig);
+  BorderStrip background(layout);
+  background.sample(empty, layout);
+  return make_detector(choice, rig, background);
 }
 
 class ActivePipelineTest : public testing::Test {
@@ -47,12 +58,21 @@ class ActivePipelineTest : public testing::Test {
     return picture;
   }
 
-  const TouchEvent* see(const cv::Mat& picture, bool sending = true) {
+  const TouchEvent* see(const cv::Mat& picture, bool sending = true) { return see_with(pipeline, picture, sending); }
+  const TouchEvent* see_with(ActivePipeline& seeing, const cv::Mat& picture, bool sending = true) {
     clock.advance(frame_period);
     frame.bgr = picture;
     ++frame.sequence;
     frame.time = clock.now() - 5ms;
-    return pipeline.process(frame, map, sending);
+    return seeing.process(frame, map, sending);
+  }
+  const TouchEvent* see_for(Duration time, ActivePipeline& seeing, const cv::Mat& picture) {
+    const TouchEvent* event = nullptr;
+    for (const Timestamp end = clock.now() + time; clock.now() < end;) {
+      map.seen = clock.now();
+      event = see_with(seeing, picture);
+    }
+    return event;
   }
   const TouchEvent* miss(Duration after = frame_period) {
     clock.advance(after);
@@ -69,7 +89,10 @@ class ActivePipelineTest : public testing::Test {
     options.frames.frozen_after = 0;  // the drawn pictures stand still
     return options;
   }
-  ActivePipeline pipeline{calibration(), options(), example_session, clock, metrics};
+  ActivePipeline pipeline_with(AnyDetector detector, const Calibration& rig = calibration()) {
+    return {rig, std::move(detector), options(), example_session, clock, metrics};
+  }
+  ActivePipeline pipeline = pipeline_with(detector_of(calibration(), "default", nobody()));
 };
 
 TEST_F(ActivePipelineTest, SendsTheBoxUnderTheFinger) {
@@ -89,6 +112,62 @@ TEST_F(ActivePipelineTest, SendsTheBoxUnderTheFinger) {
   EXPECT_NEAR(contact.screen.y_mm, 150, 6);
   EXPECT_NEAR(contact.body.x_fh, 0, 0.05);
   EXPECT_NEAR(contact.body.y_fh, 70 / 60.0, 0.1);
+}
+
+TEST_F(ActivePipelineTest, SendsTheBoxUnderTheFingerWithTheThesisDetector) {
+  ActivePipeline thesis = pipeline_with(detector_of(calibration(), "thesis", nobody()));
+  EXPECT_TRUE(thesis.knows_background()) << "it needs none";
+  const TouchEvent* event = see_with(thesis, touching());
+  ASSERT_NE(event, nullptr);
+  ASSERT_EQ(event->contacts.size(), 1U);
+  EXPECT_EQ(event->contacts[0].box, 13);
+  EXPECT_NEAR(event->contacts[0].screen.x_mm, 200, 3);
+  EXPECT_NEAR(event->contacts[0].screen.y_mm, 150, 6);
+}
+
+TEST_F(ActivePipelineTest, SendsTwoFingersAtATime) {
+  const cv::Mat two = DrawnScene(border, image).finger(613, 55, 57).finger(713, 50, 70).noise(1, 4).picture();
+  const TouchEvent* event = see(two);
+  ASSERT_NE(event, nullptr);
+  EXPECT_EQ(event->contacts.size(), 2U);
+}
+
+TEST_F(ActivePipelineTest, LearnsTheBackgroundFirstIfNobodyHasKeptIt) {
+  ActivePipeline learning = pipeline_with(make_detector("default", calibration(), std::nullopt));
+  for (int i = 0; i < 10; ++i) {
+    const cv::Mat hand = DrawnScene(border, image).bar(100 + 60 * i, 300, -400, -5).noise(1, 4).picture();
+    EXPECT_EQ(see_with(learning, hand), nullptr);
+    EXPECT_FALSE(learning.knows_background()) << "something moves";
+  }
+  see_for(1s, learning, nobody());
+  EXPECT_TRUE(learning.knows_background());
+  EXPECT_EQ(counter("background_relearned"), 0U) << "it is the first";
+  const TouchEvent* event = see_for(500ms, learning, touching());
+  ASSERT_NE(event, nullptr);
+  EXPECT_EQ(event->contacts.size(), 1U);
+}
+
+// Lit from the other side, the strip looks different nearly everywhere.
+TEST_F(ActivePipelineTest, LearnsTheBackgroundAnewAfterTheLightWasSwitchedAndTouchesNothingMeanwhile) {
+  cv::Mat other_light = nobody().clone();
+  for (int u = 0; u < other_light.cols; ++u)
+    other_light.col(u) *= 0.3 + 1.8 * u / other_light.cols;
+  cv::Mat touched = touching().clone();
+  for (int u = 0; u < touched.cols; ++u)
+    touched.col(u) *= 0.3 + 1.8 * u / touched.cols;
+
+  see_for(500ms, pipeline, nobody());
+  const Timestamp switched = clock.now();
+  see(other_light);
+  while (!pipeline.knows_background() || counter("background_relearned") == 0) {
+    ASSERT_LT(clock.now() - switched, 2s);
+    ASSERT_EQ(see(other_light), nullptr);
+  }
+  EXPECT_EQ(counter("touches_seen"), 0U);
+  map.seen = clock.now();
+  const TouchEvent* event = see(touched);
+  ASSERT_NE(event, nullptr);
+  EXPECT_EQ(event->contacts.size(), 1U);
 }
 
 TEST_F(ActivePipelineTest, SendsOneDownThenMovesThenOneUp) {
@@ -192,7 +271,8 @@ TEST_F(ActivePipelineTest, EndsATouchAndBeginsNoneWhileThePicturesCantBeBelieved
 }
 
 TEST_F(ActivePipelineTest, EndsATouchOfACameraThatHangs) {
-  ActivePipeline hanging(calibration(), ActivePipelineOptions{}, example_session, clock, metrics);
+  ActivePipeline hanging(calibration(), detector_of(calibration(), "default", nobody()), ActivePipelineOptions{},
+                         example_session, clock, metrics);
   const TouchEvent* event = nullptr;
   for (int i = 0; i < 20; ++i) {
     clock.advance(frame_period);
@@ -257,8 +337,23 @@ class WatchedCamera : public ActivePipelineTest {
     return scene.noise(3, 4).picture();
   }
 
-  ActivePipeline watched{calibration(), ActivePipelineOptions{}, example_session, clock, metrics};
+  ActivePipeline watched = pipeline_with(detector_of(calibration(), "default", nobody()), calibration());
 };
+
+TEST_F(WatchedCamera, SeesTheSameUpsideDown) {
+  Calibration turned = calibration();
+  auto& camera = std::get<RigCalibration>(turned.solved).solution.model.camera;
+  camera = RigCamera(camera.parameters(), image, {.left_right_exchanged = false, .top_bottom_exchanged = true});
+  turned.border = border_line(camera, screen);
+  ActivePipeline upside_down = pipeline_with(detector_of(turned, "default", nobody()), turned);
+  cv::Mat flipped;
+  cv::flip(touching(), flipped, 0);
+  const ScreenPoint upright = see(touching())->contacts.at(0).screen;
+  const TouchEvent* event = see_with(upside_down, flipped);
+  ASSERT_NE(event, nullptr);
+  EXPECT_EQ(event->contacts.at(0).screen.x_mm, upright.x_mm);
+  EXPECT_EQ(event->contacts.at(0).screen.y_mm, upright.y_mm);
+}
 
 TEST_F(WatchedCamera, IsTrustedWhileItStands) {
   for (int i = 0; i < 100; ++i)
@@ -309,6 +404,28 @@ TEST_F(ActivePipelineTest, AllocatesNothingPerFrameAfterTheFirst) {
     miss();
   EXPECT_EQ(allocation_count() - before, 0U);
   EXPECT_GT(events, 100);
+}
+
+TEST_F(ActivePipelineTest, AllocatesNothingWhileItLearnsTheBackground) {
+  if (!allocations_are_counted()) GTEST_SKIP() << "the sanitizer has a heap of its own";
+  ActivePipeline learning = pipeline_with(make_detector("default", calibration(), std::nullopt));
+  see_with(learning, nobody());
+  const std::uint64_t before = allocation_count();
+  for (int i = 0; i < 30; ++i)
+    see_with(learning, nobody());
+  EXPECT_TRUE(learning.knows_background());
+  EXPECT_EQ(allocation_count() - before, 0U);
+}
+
+TEST_F(ActivePipelineTest, AllocatesNothingWithTheThesisDetector) {
+  if (!allocations_are_counted()) GTEST_SKIP() << "the sanitizer has a heap of its own";
+  ActivePipeline thesis = pipeline_with(detector_of(calibration(), "thesis", nobody()));
+  see_with(thesis, touching());
+  see_with(thesis, nobody());
+  const std::uint64_t before = allocation_count();
+  for (int i = 0; i < 20; ++i)
+    see_with(thesis, i % 10 < 5 ? touching() : nobody());
+  EXPECT_EQ(allocation_count() - before, 0U);
 }
 
 }  // namespace

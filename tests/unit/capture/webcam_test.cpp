@@ -149,6 +149,21 @@ TEST_F(AWebcam, CountsBrokenPicturesAndDeliversTheNextGoodOne) {
   EXPECT_EQ(read_one(jpeg()), ReadOutcome::frame);
 }
 
+TEST_F(AWebcam, IsSetUpAgainWhenItsPicturesHaveAnotherSizeForGood) {
+  ASSERT_TRUE(webcam_.open());
+  const auto odd = jpeg_of(plain_picture(64, 48, {1, 2, 3}));
+  for (int i = 0; i < 14; ++i)
+    ASSERT_EQ(read_one(odd), ReadOutcome::broken);
+  ASSERT_EQ(read_one(jpeg()), ReadOutcome::frame);
+  for (int i = 0; i < 14; ++i)
+    ASSERT_EQ(read_one(odd), ReadOutcome::broken);
+  ASSERT_EQ(read_one(odd), ReadOutcome::lost);
+  EXPECT_THAT(webcam_.last_error(), HasSubstr("another size"));
+  EXPECT_EQ(webcam_.read(frame_, 600ms), ReadOutcome::timeout);
+  EXPECT_EQ(device_.opened, 2);
+  EXPECT_EQ(read_one(jpeg()), ReadOutcome::frame);
+}
+
 TEST_F(AWebcam, TakesAShortYuyvPictureForBroken) {
   device_.formats = {V4L2_PIX_FMT_YUYV};
   ASSERT_TRUE(webcam_.open());

@@ -113,6 +113,18 @@ TEST(ContactTracker, BeginsNothingNewWhileTheSceneIsDisturbedButGoesOn) {
   EXPECT_EQ(states[0].screen.x_mm, 12);
 }
 
+TEST(ContactTracker, WaitsForTheNextPictureOfASlowCameraAndEndsContactsWhenNoneComes) {
+  ContactTracker tracker({.every_finger_touches = true, .up_after = 70ms});
+  const auto id = tracker.update(touches({{10, 10}}), Timestamp{})[0].id;
+  EXPECT_EQ(tracker.pass(Timestamp{50ms}).at(0).phase, Phase::move);
+  EXPECT_EQ(tracker.pass(Timestamp{99ms}).at(0).phase, Phase::move);
+  EXPECT_EQ(tracker.update(touches({{12, 10}}), Timestamp{100ms}).at(0).id, id);
+  EXPECT_EQ(tracker.pass(Timestamp{200ms}).at(0).phase, Phase::move);
+  EXPECT_EQ(tracker.pass(Timestamp{250ms}).at(0).phase, Phase::up);
+  EXPECT_TRUE(tracker.pass(Timestamp{260ms}).empty());
+  EXPECT_NE(tracker.update(touches({{12, 10}}), Timestamp{300ms}).at(0).id, id);
+}
+
 TEST(ContactTracker, SurvivesTimesThatDoNotRise) {
   ContactTracker tracker({.every_finger_touches = true});
   tracker.update(touches({{10, 10}}), at(5));

@@ -199,7 +199,7 @@ TEST(Gestures, AreFinalOncePerContactForAnyFingersAndTimes) {
     if (i % 700 == 0) now -= 2h;  // never while the program runs, but if
     const bool face = i / 1000 % 4 != 0;
     const ContactStates& states =
-        recogniser.update(tracker.update(points, now), face ? std::optional(grid) : std::nullopt);
+        recogniser.update(tracker.update(without_evidence(points), now), face ? std::optional(grid) : std::nullopt);
     for (const ContactState& state : states) {
       if (state.phase == Phase::down) {
         ASSERT_TRUE(alive.emplace(state.id, Gesture::none).second);
@@ -250,7 +250,7 @@ TEST(Gestures, AllocateNothing) {
     ScreenPoints points;
     for (int p = 0; p < i / 7 % 11; ++p)
       points.push_back({37.0 * p, 100});
-    recogniser.update(tracker.update(points, Timestamp{1s} + i * frame), grid);
+    recogniser.update(tracker.update(without_evidence(points), Timestamp{1s} + i * frame), grid);
   }
   EXPECT_EQ(allocation_count() - before, 0U);
 }
