@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bench/touch/thesis_figures.hpp"
 
-#include <fmt/format.h>
-
-#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 #include <string>
@@ -86,24 +83,6 @@ Figure measure_preprocessing(const Recording& recording) {
     const double ms = watch.lap_ms();
     if (i >= bench_warm_up_rounds) figure.samples.push_back(ms);
   }
-  return figure;
-}
-
-// Whether a picture can be believed, before anything is looked for in it.
-Figure measure_frame_check(const Recording& recording) {
-  const TouchedRig& rig = recording.rig;
-  FrameCheck check(rig.image, {recording.border.v0_px, recording.border.slope});
-  Figure figure{"touch.frame_check_1280x720", "ms"};
-  double most_change = 0;
-  for (int i = 0; i < bench_warm_up_rounds + bench_rounds; ++i) {
-    // A picture that lies in no cache, as one that was just decoded beside others does at worst.
-    const cv::Mat& picture = rig.pictures[static_cast<std::size_t>(i) % rig.pictures.size()];
-    Stopwatch watch;
-    most_change = std::max(most_change, check.check(picture).desk_change);
-    const double ms = watch.lap_ms();
-    if (i >= bench_warm_up_rounds) figure.samples.push_back(ms);
-  }
-  fmt::print("{:.2f} of the desk's samples change at most from frame to frame\n", most_change);
   return figure;
 }
 

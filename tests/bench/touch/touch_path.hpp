@@ -38,7 +38,7 @@ inline BodyMap body_map_on(const ScreenSize& screen) {
 // The whole path, from a decoded frame to the event that is sent. Names are "touch.PREFIXframeSUFFIX" and so on.
 template <typename Detector>
 Figures measure_path(Detector& detector, const TouchedRig& rig, const std::string& prefix, const std::string& suffix) {
-  ContactTracker tracker({.every_finger_touches = true});
+  ContactTracker tracker;
   TouchEventBuilder builder("0123456789abcdef0123456789abcdef");
   const BodyMap map = body_map_on(rig.screen);
   NobodyTouched nobody;
