@@ -12,8 +12,8 @@ constexpr float noise_level = 3;
 constexpr float uneven_light = 0.06F;
 constexpr float like_background = 2;  // distance below which a cell helps to find the gain
 constexpr float dark = 3;             // keeps ratios of black cells finite
-constexpr int levelling_rounds = 3;
-constexpr int median_step = 4;  // every how many cells the first gain looks at
+constexpr int levelling_rounds = 2;
+constexpr int median_step = 8;  // every how many cells the first gain looks at
 
 // Shares of the way to the present frame, at 30 frames a second: half a second, 20 seconds, 2 minutes.
 constexpr float learn_background = 1.0F / 15;
@@ -45,84 +45,106 @@ void BackgroundStrip::set_background(int rail) {
   }
 }
 
-void BackgroundStrip::level(const BorderStrip& strip, int rail) {
-  auto& gain = gain_[static_cast<std::size_t>(rail)];
-  std::size_t n = 0;
-  for (int i = 0; i < columns_; i += median_step) {
-    float now = dark;
-    float then = dark;
-    for (int channel = 0; channel < BorderStrip::channels; ++channel) {
-      now += strip.row(channel, rail)[i];
-      then += background_.row(channel, rail)[i];
-    }
-    scratch_[n++] = then / now;
-  }
-  const auto middle = scratch_.begin() + static_cast<std::ptrdiff_t>(n / 2);
-  std::nth_element(scratch_.begin(), middle, scratch_.begin() + static_cast<std::ptrdiff_t>(n));
-  gain.fill(*middle);
+// Of one value, in standard deviations.
+inline float BackgroundStrip::difference_at(const RailView& rail, const Gain& gain, std::size_t channel, int i) {
+  const float difference = gain[channel] * (rail.now[channel][i] + dark) - (rail.then[channel][i] + dark);
+  return difference * rail.inverse_deviation[channel][i];
+}
 
-  float* const distance = distance_.data() + static_cast<std::ptrdiff_t>(rail) * columns_;
-  for (int round = 0; round < levelling_rounds; ++round) {
-    std::fill_n(distance, columns_, 0.0F);
-    for (int channel = 0; channel < BorderStrip::channels; ++channel) {
-      const float g = gain[static_cast<std::size_t>(channel)];
-      const float* const now = strip.row(channel, rail);
-      const float* const then = background_.row(channel, rail);
-      const auto start = static_cast<std::ptrdiff_t>(channel * BorderStrip::rails + rail) * columns_;
-      const float* const inverse = inverse_deviation_.data() + start;
-      float* const difference = difference_.data() + start;
-      for (int i = 0; i < columns_; ++i) {
-        difference[i] = (g * (now[i] + dark) - (then[i] + dark)) * inverse[i];
-        distance[i] += difference[i] * difference[i];
-      }
-    }
-    constexpr float limit = like_background * like_background * BorderStrip::channels;
-    if (round + 1 == levelling_rounds) break;
-    for (int channel = 0; channel < BorderStrip::channels; ++channel) {
-      const float* const now = strip.row(channel, rail);
-      const float* const then = background_.row(channel, rail);
-      float sum_now = 0;
-      float sum_then = 0;
-      float cells = 0;
-      for (int i = 0; i < columns_; ++i) {
-        const float alike = distance[i] < limit ? 1.0F : 0.0F;
-        sum_now += alike * (now[i] + dark);
-        sum_then += alike * (then[i] + dark);
-        cells += alike;
-      }
-      if (cells > 0.1F * static_cast<float>(columns_)) gain[static_cast<std::size_t>(channel)] = sum_then / sum_now;
-    }
+// Of one cell, in variances, summed over the channels.
+inline float BackgroundStrip::distance2(const RailView& rail, const Gain& gain, int i) {
+  float sum = 0;
+  for (std::size_t k = 0; k < gain.size(); ++k) {
+    const float difference = difference_at(rail, gain, k, i);
+    sum += difference * difference;
   }
+  return sum;
+}
+
+BackgroundStrip::RailView BackgroundStrip::view(const BorderStrip& strip, int rail) const {
+  RailView view{};
+  for (int channel = 0; channel < BorderStrip::channels; ++channel) {
+    const auto k = static_cast<std::size_t>(channel);
+    view.now[k] = strip.row(channel, rail);
+    view.then[k] = background_.row(channel, rail);
+    view.inverse_deviation[k] =
+        inverse_deviation_.data() + static_cast<std::ptrdiff_t>(channel * BorderStrip::rails + rail) * columns_;
+  }
+  return view;
+}
+
+// The median over the rail of how much brighter the background was.
+BackgroundStrip::Gain BackgroundStrip::first_gain(const RailView& rail) {
+  Gain gain;
+  for (std::size_t k = 0; k < gain.size(); ++k) {
+    std::size_t n = 0;
+    for (int i = 0; i < columns_; i += median_step)
+      scratch_[n++] = (rail.then[k][i] + dark) / (rail.now[k][i] + dark);
+    const auto middle = scratch_.begin() + static_cast<std::ptrdiff_t>(n / 2);
+    std::nth_element(scratch_.begin(), middle, scratch_.begin() + static_cast<std::ptrdiff_t>(n));
+    gain[k] = *middle;
+  }
+  return gain;
+}
+
+// From the cells that look like background with the gain so far.
+BackgroundStrip::Gain BackgroundStrip::better_gain(const RailView& rail, const Gain& gain) const {
+  constexpr float limit = like_background * like_background * BorderStrip::channels;
+  Gain now{};
+  Gain then{};
+  float alike_cells = 0;
+  for (int i = 0; i < columns_; ++i) {
+    const float alike = distance2(rail, gain, i) < limit ? 1.0F : 0.0F;
+    for (std::size_t k = 0; k < gain.size(); ++k) {
+      now[k] += alike * (rail.now[k][i] + dark);
+      then[k] += alike * (rail.then[k][i] + dark);
+    }
+    alike_cells += alike;
+  }
+  if (alike_cells <= 0.1F * static_cast<float>(columns_)) return gain;
+  return {then[0] / now[0], then[1] / now[1], then[2] / now[2]};
 }
 
 const std::vector<float>& BackgroundStrip::distance(const BorderStrip& strip) {
-  for (int rail = 0; rail < BorderStrip::rails; ++rail)
-    level(strip, rail);
-  std::size_t alike = 0;
-  for (float& d : distance_) {
-    d = std::min(std::sqrt(d / BorderStrip::channels), far);
-    alike += d < like_background ? 1 : 0;
+  float alike = 0;
+  for (int r = 0; r < BorderStrip::rails; ++r) {
+    const RailView rail = view(strip, r);
+    Gain gain = first_gain(rail);
+    for (int round = 0; round < levelling_rounds; ++round)
+      gain = better_gain(rail, gain);
+    gain_[static_cast<std::size_t>(r)] = gain;
+    const auto start = static_cast<std::ptrdiff_t>(r) * columns_;
+    for (std::size_t k = 0; k < gain.size(); ++k) {
+      float* const difference = difference_.data() + static_cast<std::ptrdiff_t>(k * distance_.size()) + start;
+      for (int i = 0; i < columns_; ++i)
+        difference[i] = difference_at(rail, gain, k, i);
+    }
+    float* const distance = distance_.data() + start;
+    for (int i = 0; i < columns_; ++i) {
+      const float d = std::min(std::sqrt(distance2(rail, gain, i) / BorderStrip::channels), far);
+      distance[i] = d;
+      alike += d < like_background ? 1.0F : 0.0F;
+    }
   }
   unchanged_share_ = static_cast<double>(alike) / static_cast<double>(distance_.size());
   return distance_;
 }
 
+// Of the whole planes at once; the outermost cells are set to none, their neighbours lie on other rails.
 const std::vector<float>& BackgroundStrip::new_edges() {
-  std::fill(new_edges_.begin(), new_edges_.end(), 0.0F);
   const auto plane = static_cast<std::ptrdiff_t>(distance_.size());
-  for (int channel = 0; channel < BorderStrip::channels; ++channel) {
-    const float* const difference = difference_.data() + channel * plane;
-    for (std::ptrdiff_t i = 1; i + 1 < plane; ++i) {
-      const float step = difference[i + 1] - difference[i - 1];
-      new_edges_[static_cast<std::size_t>(i)] += step * step;
-    }
+  const float* const blue = difference_.data();
+  const float* const green = blue + plane;
+  const float* const red = green + plane;
+  float* const edge = new_edges_.data();
+  for (std::ptrdiff_t i = 1; i + 1 < plane; ++i) {
+    const float b = blue[i + 1] - blue[i - 1];
+    const float g = green[i + 1] - green[i - 1];
+    const float r = red[i + 1] - red[i - 1];
+    edge[i] = std::min(std::sqrt((b * b + g * g + r * r) / BorderStrip::channels), far);
   }
-  for (int rail = 0; rail < BorderStrip::rails; ++rail) {
-    float* const edge = new_edges_.data() + static_cast<std::ptrdiff_t>(rail) * columns_;
-    edge[0] = edge[columns_ - 1] = 0;  // their neighbours lie on other rails
-    for (int i = 0; i < columns_; ++i)
-      edge[i] = std::min(std::sqrt(edge[i] / BorderStrip::channels), far);
-  }
+  for (std::ptrdiff_t first = 0; first < plane; first += columns_)
+    edge[first] = edge[first + columns_ - 1] = 0;
   return new_edges_;
 }
 

@@ -40,8 +40,21 @@ class BackgroundStrip {
   void set(const BorderStrip& empty);
 
  private:
+  using Gain = std::array<float, BorderStrip::channels>;
+  using Channels = std::array<const float*, BorderStrip::channels>;
+  // One rail of the frame and of the background.
+  struct RailView {
+    Channels now;
+    Channels then;
+    Channels inverse_deviation;
+  };
+
   void set_background(int rail);
-  void level(const BorderStrip& strip, int rail);
+  [[nodiscard]] RailView view(const BorderStrip& strip, int rail) const;
+  [[nodiscard]] static float difference_at(const RailView& rail, const Gain& gain, std::size_t channel, int column);
+  [[nodiscard]] static float distance2(const RailView& rail, const Gain& gain, int column);
+  [[nodiscard]] Gain first_gain(const RailView& rail);
+  [[nodiscard]] Gain better_gain(const RailView& rail, const Gain& gain) const;
 
   int columns_;
   BorderStrip background_;
@@ -49,7 +62,7 @@ class BackgroundStrip {
   std::vector<float> distance_;
   std::vector<float> difference_;  // of each value from the background, in standard deviations
   std::vector<float> new_edges_;
-  std::array<std::array<float, BorderStrip::channels>, BorderStrip::rails> gain_{};  // background = gain * frame
+  std::array<Gain, BorderStrip::rails> gain_{};  // background = gain * frame
   std::vector<float> scratch_;
   double unchanged_share_ = 1;
 };

@@ -14,7 +14,10 @@ constexpr float least_edge = 0.9F;         // mean step of an edge, in standard 
 constexpr float most_against = -1;         // how much a rail with the opposite step counts against an edge
 constexpr float far_enough = 5;            // steps beyond this are all alike: skin colours make no difference
 constexpr float edge_without_step = 0.4F;  // worth of an edge whose sides differ from the background alike
-constexpr float near_alone = 0.8F;         // worth of an edge that is seen on the bezel only
+// Worth of a step on an edge that is seen on the bezel only, and of one on all rails: 0.8 to 1 for the whole edges.
+constexpr int near_weight = 8;
+constexpr int all_weight = 5;
+constexpr float step_unit = 1.0F / 32;  // of a step, in standard deviations
 constexpr float is_foreground = 2;
 constexpr double least_foreground = 0.5;
 constexpr double foreground_weight = 2;
@@ -30,6 +33,10 @@ constexpr int apart_columns = 3;        // two peaks of one edge
 
 double slope_of(int index, int slopes) {
   return -steepest + 2 * steepest * index / (slopes - 1);
+}
+
+float strength_of(int weighted_sum) {
+  return static_cast<float>(weighted_sum) * (step_unit / (all_weight * BorderStrip::rails));
 }
 
 // Least squares of points that come in one after the other.
@@ -66,78 +73,99 @@ class GrowingLine {
 
 CrossingFinder::CrossingFinder(const BorderStrip::Layout& layout)
     : layout_(layout),
-      left_steps_(layout.cells()),
-      right_steps_(layout.cells()),
+      margin_(shift(-steepest, BorderStrip::rails - 1) + 1),
+      row_(static_cast<std::size_t>(layout.columns + 2 * margin_)),
+      left_steps_(row_ * BorderStrip::rails),
+      right_steps_(left_steps_.size()),
       sums_(static_cast<std::size_t>(layout.columns)),
-      best_(static_cast<std::size_t>(layout.columns)),
-      best_slope_(static_cast<std::size_t>(layout.columns)) {}
+      best_(sums_.size()),
+      best_slope_(sums_.size()) {
+  candidates_.reserve(sums_.size());
+}
+
+int CrossingFinder::shift(double slope, int rail) const noexcept {
+  return static_cast<int>(std::lround(slope * layout_.offset_px(rail) / layout_.column_px));
+}
 
 // The picture's sides end a finger as well as its own edges do.
 void CrossingFinder::find_steps(const std::vector<float>& foreground, const std::vector<float>& new_edges) {
   const int n = layout_.columns;
+  const auto fixed = [](float step) { return static_cast<Step>(step / step_unit); };
   for (int rail = 0; rail < BorderStrip::rails; ++rail) {
     const auto start = static_cast<std::ptrdiff_t>(rail) * n;
     const float* const in = foreground.data() + start;
     const float* const edge = new_edges.data() + start;
-    float* const left = left_steps_.data() + start;
-    float* const right = right_steps_.data() + start;
+    Step* const left = left_steps_.data() + first_of(rail);
+    Step* const right = right_steps_.data() + first_of(rail);
     for (int i = 1; i + 1 < n; ++i) {
       const float step = std::min(in[i + 1], far_enough) - std::min(in[i - 1], far_enough);
-      const bool something = std::max({in[i - 1], in[i], in[i + 1]}) > is_foreground;
-      const float unsigned_step = something ? edge_without_step * std::min(edge[i], far_enough) : 0;
-      left[i] = std::max({step, unsigned_step, most_against});
-      right[i] = std::max({-step, unsigned_step, most_against});
+      const float highest = std::max(std::max(in[i - 1], in[i]), in[i + 1]);
+      const float unsigned_step = highest > is_foreground ? edge_without_step * std::min(edge[i], far_enough) : 0.0F;
+      const float least = std::max(unsigned_step, most_against);
+      left[i] = fixed(std::max(step, least));
+      right[i] = fixed(std::max(-step, least));
     }
-    left[0] = std::min(in[0], far_enough);
-    right[n - 1] = std::min(in[n - 1], far_enough);
+    left[0] = fixed(std::min(in[0], far_enough));
+    right[n - 1] = fixed(std::min(in[n - 1], far_enough));
     left[n - 1] = right[0] = 0;
     if (rail < BorderStrip::near_rails) continue;
     // Slopes are tried in steps that miss a far rail's cell by one.
-    for (float* const steps : {left, right}) {
-      float before = steps[0];
-      for (int i = 1; i + 1 < n; ++i) {
-        const float here = steps[i];
-        steps[i] = std::max({before, here, steps[i + 1]});
-        before = here;
-      }
+    for (Step* const steps : {left, right}) {
+      std::copy_n(steps, n, sums_.begin());
+      const Step* const narrow = sums_.data();
+      for (int i = 1; i + 1 < n; ++i)
+        steps[i] = std::max(std::max(narrow[i - 1], narrow[i]), narrow[i + 1]);
     }
   }
 }
 
-void CrossingFinder::find_edges(const std::vector<float>& steps, Peaks& peaks) {
-  const int n = layout_.columns;
-  std::fill(best_.begin(), best_.end(), 0.0F);
+// Of all rails from `first_rail` to before `end_rail`, four at once.
+void CrossingFinder::add_rails(const Steps& steps, double slope, int first_rail, int end_rail) {
+  constexpr int at_once = 4;
+  static_assert(BorderStrip::rails % at_once == 0 && BorderStrip::near_rails % at_once == 0);
+  for (int rail = first_rail; rail < end_rail; rail += at_once) {
+    const auto row = [&](int r) { return steps.data() + first_of(r) + shift(slope, r); };
+    const Step* const a = row(rail);
+    const Step* const b = row(rail + 1);
+    const Step* const c = row(rail + 2);
+    const Step* const d = row(rail + 3);
+    Step* const sum = sums_.data();
+    for (int i = 0; i < layout_.columns; ++i)
+      sum[i] = static_cast<Step>(sum[i] + a[i] + b[i] + c[i] + d[i]);
+  }
+}
+
+void CrossingFinder::find_edges(const Steps& steps, Peaks& peaks) {
+  std::fill(best_.begin(), best_.end(), Step{0});
   for (int s = 0; s < slopes; ++s) {
-    std::fill(sums_.begin(), sums_.end(), 0.0F);
-    float* const sum = sums_.data();
-    const auto keep_best = [&](float scale) {
+    const auto keep_best = [&](int weight) {
       for (std::size_t i = 0; i < sums_.size(); ++i) {
-        const float strength = scale * sums_[i];
+        const auto strength = static_cast<Step>(weight * sums_[i]);
         const bool better = strength > best_[i];
         best_[i] = better ? strength : best_[i];
-        best_slope_[i] = better ? s : best_slope_[i];
+        best_slope_[i] = better ? static_cast<Step>(s) : best_slope_[i];
       }
     };
-    for (int rail = 0; rail < BorderStrip::rails; ++rail) {
-      const double shift_px = slope_of(s, slopes) * layout_.offset_px(rail);
-      const int shift = static_cast<int>(std::lround(shift_px / layout_.column_px));
-      const float* const in = steps.data() + static_cast<std::ptrdiff_t>(rail) * n + shift;
-      const int end = std::min(n, n - shift);
-      for (int i = std::max(0, -shift); i < end; ++i)
-        sum[i] += in[i];
-      if (rail + 1 == BorderStrip::near_rails) keep_best(near_alone / BorderStrip::near_rails);
-    }
-    keep_best(1.0F / BorderStrip::rails);
+    const double slope = slope_of(s, slopes);
+    std::fill(sums_.begin(), sums_.end(), Step{0});
+    add_rails(steps, slope, 0, BorderStrip::near_rails);
+    keep_best(near_weight);
+    add_rails(steps, slope, BorderStrip::near_rails, BorderStrip::rails);
+    keep_best(all_weight);
+  }
+  candidates_.clear();
+  for (int i = 0; i < layout_.columns; ++i) {
+    const auto column = static_cast<std::size_t>(i);
+    const float strength = strength_of(best_[column]);
+    if (strength >= least_edge) candidates_.push_back({i, slope_of(best_slope_[column], slopes), strength});
   }
   peaks.clear();
-  while (peaks.size() < peaks.capacity()) {
-    const auto highest = std::max_element(best_.begin(), best_.end());
-    if (*highest < least_edge) return;
-    const auto column = static_cast<int>(highest - best_.begin());
-    peaks.push_back({column, slope_of(best_slope_[static_cast<std::size_t>(column)], slopes), *highest});
-    const int last = std::min(n - 1, column + apart_columns);
-    for (int i = std::max(0, column - apart_columns); i <= last; ++i)
-      best_[static_cast<std::size_t>(i)] = 0;
+  while (!candidates_.empty() && peaks.size() < peaks.capacity()) {
+    const Peak highest = *std::max_element(candidates_.begin(), candidates_.end(),
+                                           [](const Peak& x, const Peak& y) { return x.strength < y.strength; });
+    peaks.push_back(highest);
+    std::erase_if(candidates_,
+                  [&](const Peak& peak) { return std::abs(peak.column - highest.column) <= apart_columns; });
   }
 }
 
@@ -166,6 +194,7 @@ double CrossingFinder::foreground_share(const std::vector<float>& foreground, do
 FingerEdge CrossingFinder::followed(const Peak& peak, const cv::Mat& bgr, const BorderCurve& border) const {
   constexpr int reach = 4;  // columns to each side of where the edge is expected
   constexpr int mean = 3;   // columns and rows that are averaged on each side of a step
+  constexpr int places = 2 * reach + 1;
   constexpr int row_step = 2;
   constexpr int most_lost = 4;       // rows without an edge that end it
   constexpr double least_step = 16;  // grey levels, sum of the channels
@@ -182,19 +211,20 @@ FingerEdge CrossingFinder::followed(const Peak& peak, const cv::Mat& bgr, const 
       const auto row = static_cast<int>(std::lround(coarse.v_px + offset));
       const auto middle = static_cast<int>(std::lround(expected.u_at(row)));
       if (row < 1 || row > bgr.rows - 2 || middle < reach + mean || middle >= bgr.cols - reach - mean) return;
-      std::array<double, 2 * reach + 1> step;
+      // Interleaved channels of all columns that count, three rows together; then the steps at each place.
+      std::array<int, std::size_t{3} * (places + 2 * mean)> sum;
+      const std::uint8_t* const pixels = bgr.ptr<std::uint8_t>(row) + 3 * (middle - reach - mean);
+      const std::uint8_t* const above = pixels - bgr.step[0];
+      const std::uint8_t* const below = pixels + bgr.step[0];
+      for (std::size_t i = 0; i < sum.size(); ++i)
+        sum[i] = above[i] + pixels[i] + below[i];
+      std::array<int, std::size_t{3} * places> difference;
+      for (std::size_t i = 0; i < difference.size(); ++i)
+        difference[i] = std::abs(sum[i + 12] + sum[i + 15] + sum[i + 18] - sum[i] - sum[i + 3] - sum[i + 6]);
+      std::array<double, places> step;
       std::size_t best = 0;
       for (std::size_t i = 0; i < step.size(); ++i) {
-        const int column = middle - reach + static_cast<int>(i);
-        int difference[3] = {0, 0, 0};
-        for (int dv = -1; dv <= 1; ++dv) {
-          const auto* const pixel = bgr.ptr<cv::Vec3b>(row + dv) + column;
-          for (int k = 1; k <= mean; ++k) {
-            for (int c = 0; c < 3; ++c)
-              difference[c] += pixel[k][c] - pixel[-k][c];
-          }
-        }
-        step[i] = (std::abs(difference[0]) + std::abs(difference[1]) + std::abs(difference[2])) / 9.0;
+        step[i] = (difference[3 * i] + difference[3 * i + 1] + difference[3 * i + 2]) / 9.0;
         if (step[i] > step[best]) best = i;
       }
       // At the end of the search there may be more beyond it: something else.
@@ -269,13 +299,14 @@ const Crossings& CrossingFinder::find(const std::vector<float>& foreground, cons
       if (width_px < narrowest_px * layout_.scale || width_px > widest_px * layout_.scale || taper > largest_taper) {
         continue;
       }
+      const double edges = static_cast<double>(left.strength + right.strength) - taper;
+      if (edges + foreground_weight < least_strength) continue;
       const double between = foreground_share(foreground, left.column + 1, left.slope, right.column - 1, right.slope);
       if (between < least_foreground) continue;
       const double outside =
           foreground_share(foreground, left.column - beside, left.slope, left.column - 2, left.slope) +
           foreground_share(foreground, right.column + 2, right.slope, right.column + beside, right.slope);
-      const double strength = static_cast<double>(left.strength + right.strength) + foreground_weight * between -
-                              beside_weight * outside - taper;
+      const double strength = edges + foreground_weight * between - beside_weight * outside;
       if (strength >= least_strength) pairs.push_back({strength, left, right});
     }
   }

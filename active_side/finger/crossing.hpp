@@ -7,6 +7,7 @@
 
 #include <boost/container/static_vector.hpp>
 #include <cstddef>
+#include <cstdint>
 #include <opencv2/core/mat.hpp>
 #include <vector>
 
@@ -54,7 +55,7 @@ class CrossingFinder {
   struct Peak {
     int column = 0;
     double slope = 0;
-    float strength = 0;
+    float strength = 0;  // mean step over the rails, in standard deviations
   };
   struct Pair {
     double strength = 0;
@@ -65,20 +66,36 @@ class CrossingFinder {
   using Pairs = boost::container::static_vector<Pair, max_pairs>;
   using Peaks = boost::container::static_vector<Peak, most_edges>;
 
+  // Fixed point, so that weighted sums over all rails fit as well. Rails by columns, with a margin of zeros at both
+  // sides.
+  using Step = std::int16_t;
+  using Steps = std::vector<Step>;
+
   static void choose(Pairs& pairs);
   void find_steps(const std::vector<float>& foreground, const std::vector<float>& new_edges);
-  void find_edges(const std::vector<float>& steps, Peaks& peaks);
+  void add_rails(const Steps& steps, double slope, int first_rail, int end_rail);
+  void find_edges(const Steps& steps, Peaks& peaks);
   // On the rails next to the border, between columns given there with the slopes of edges.
   [[nodiscard]] double foreground_share(const std::vector<float>& foreground, double from, double from_slope, double to,
                                         double to_slope) const;
   [[nodiscard]] FingerEdge followed(const Peak& peak, const cv::Mat& bgr, const BorderCurve& border) const;
 
+  // Of an edge from the border to a rail, in columns.
+  [[nodiscard]] int shift(double slope, int rail) const noexcept;
+  // Where a rail's first column stands in Steps.
+  [[nodiscard]] std::ptrdiff_t first_of(int rail) const noexcept {
+    return rail * static_cast<std::ptrdiff_t>(row_) + margin_;
+  }
+
   BorderStrip::Layout layout_;
-  std::vector<float> left_steps_;  // how much each cell looks like a finger's left edge; rails by columns
-  std::vector<float> right_steps_;
-  std::vector<float> sums_;  // of one slope
-  std::vector<float> best_;
-  std::vector<int> best_slope_;
+  int margin_;        // of Steps, in columns
+  std::size_t row_;   // of Steps: columns and both margins
+  Steps left_steps_;  // how much each cell looks like a finger's left edge
+  Steps right_steps_;
+  Steps sums_;  // of one slope; a row without margins, as the next ones
+  Steps best_;  // weighted
+  Steps best_slope_;
+  std::vector<Peak> candidates_;
   Crossings crossings_;
 };
 

@@ -45,6 +45,7 @@ Colour mean(const Colour& x, const Colour& y) {
 
 TipContourFinder::TipContourFinder()
     : ray_(most_radii + 2 * margin),
+      log_radius_(most_radii),
       edge_(TipContour::angles * most_radii),
       sharp_(edge_.size()),
       like_(edge_.size()),
@@ -94,11 +95,13 @@ TipContour TipContourFinder::trace(const cv::Mat& bgr, const Centre& centre, con
   const auto reach = std::max<std::size_t>(
       1, static_cast<std::size_t>(std::lround(largest_bend * static_cast<float>(grid.angle_step) / step)));
 
+  for (std::size_t i = 0; i < radii; ++i)
+    log_radius_[i] = static_cast<float>(std::log(nearest * a + static_cast<double>(i) * grid.radius_step_px));
   std::size_t rows = 0;
   for (std::size_t angle = 0; angle < TipContour::angles; angle += grid.angle_step, ++rows) {
     sample_ray(bgr, centre, grid, angle, radii);
     const double cosine = std::cos(angle_of(angle));
-    const double usual = usual_radius(angle_of(angle), a);
+    const auto log_usual = static_cast<float>(std::log(usual_radius(angle_of(angle), a)));
     float* const cost = cost_.data() + rows * most_radii;
     float* const edge = edge_.data() + rows * most_radii;
     float* const sharp = sharp_.data() + rows * most_radii;
@@ -116,7 +119,7 @@ TipContour TipContourFinder::trace(const cv::Mat& bgr, const Centre& centre, con
       edge[i] = difference / (difference + half_step);
       const float unlike = colours.from_finger2(inside) / inside_distance2;
       edge[i] /= 1 + unlike * unlike;
-      const auto bulge = static_cast<float>(std::log(r / usual));
+      const float bulge = log_radius_[i] - log_usual;
       cost[i] = -region_weight * region - edge_weight * edge[i] + shape_weight * bulge * bulge;
     }
   }
@@ -196,24 +199,34 @@ void TipContourFinder::learn_tip(const cv::Mat& bgr, const Centre& centre,
   colours.learn_tip(inside_, guessed);
 }
 
+// Every guess is looked at coarsely, all but the least sure one finely.
 TipContour TipContourFinder::find(const cv::Mat& bgr, const TipSearch::Guesses& guesses, FingerColours& colours) {
+  constexpr std::size_t finely = 2;
+  static_assert(TipSearch::most_guesses == finely + 1);
+  // What the search saw counts too: a nail's root looks like a tip, but the finger's sides go on beyond it.
+  boost::container::static_vector<Look, TipSearch::most_guesses> looks;
+  for (const TipGuess& guess : guesses)
+    looks.push_back(first_look(bgr, guess, colours));
+  if (looks.size() > finely) {
+    looks.erase(std::min_element(looks.begin(), looks.end(),
+                                 [](const Look& x, const Look& y) { return x.sureness() < y.sureness(); }));
+  }
   TipContour best;
   double surest = -std::numeric_limits<double>::max();
-  for (const TipGuess& guess : guesses) {
-    const TipContour contour = follow(bgr, guess, colours);
-    // What the search saw counts too: a nail's root looks like a tip, but the finger's sides go on beyond it.
-    const double sureness = contour.score + guess_weight * guess.strength;
-    if (sureness > surest) {
-      surest = sureness;
-      best = contour;
+  for (Look& look : looks) {
+    look.contour = close_look(bgr, look, colours);
+    if (look.sureness() > surest) {
+      surest = look.sureness();
+      best = look.contour;
     }
   }
   return best;
 }
 
-TipContour TipContourFinder::follow(const cv::Mat& bgr, const TipGuess& guess, FingerColours& colours) {
+TipContourFinder::Look TipContourFinder::first_look(const cv::Mat& bgr, const TipGuess& guess, FingerColours& colours) {
   constexpr Grid coarse{2, 2};
-  Centre centre;
+  Look look;
+  Centre& centre = look.centre;
   centre.half_width_px = guess.finger_half_width_px;
   centre.v = guess.tip_v - centre_behind_tip * centre.half_width_px;
   centre.u = guess.root_u + guess.lean * (centre.v - guess.root_v);
@@ -221,7 +234,15 @@ TipContour TipContourFinder::follow(const cv::Mat& bgr, const TipGuess& guess, F
   for (std::size_t k = 0; k < radius.size(); ++k)
     radius[k] = usual_radius(angle_of(k), centre.half_width_px);
   learn_tip(bgr, centre, radius, true, colours);
-  const TipContour first = trace(bgr, centre, coarse, colours);
+  look.contour = trace(bgr, centre, coarse, colours);
+  look.guess_sureness = guess_weight * guess.strength;
+  return look;
+}
+
+TipContour TipContourFinder::close_look(const cv::Mat& bgr, const Look& look, FingerColours& colours) {
+  const TipContour& first = look.contour;
+  Centre centre = look.centre;
+  std::array<double, TipContour::angles> radius;
   for (std::size_t k = 0; k < radius.size(); ++k)
     radius[k] = std::hypot(first.points[k].u_px - centre.u, first.points[k].v_px - centre.v);
   learn_tip(bgr, centre, radius, false, colours);

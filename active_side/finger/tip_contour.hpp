@@ -41,7 +41,16 @@ class TipContourFinder {
     double radius_step_px = 1;
   };
 
-  TipContour follow(const cv::Mat& bgr, const TipGuess& guess, FingerColours& colours);
+  // A guess, its outline, and about which point that was traced.
+  struct Look {
+    Centre centre;
+    TipContour contour;
+    double guess_sureness = 0;
+    [[nodiscard]] double sureness() const noexcept { return contour.score + guess_sureness; }
+  };
+
+  Look first_look(const cv::Mat& bgr, const TipGuess& guess, FingerColours& colours);
+  TipContour close_look(const cv::Mat& bgr, const Look& look, FingerColours& colours);
   [[nodiscard]] std::size_t outer_edge(std::size_t row, std::size_t inner, std::size_t last) const;
   TipContour trace(const cv::Mat& bgr, const Centre& centre, const Grid& grid, FingerColours& colours);
   void sample_ray(const cv::Mat& bgr, const Centre& centre, const Grid& grid, std::size_t angle, std::size_t radii);
@@ -50,6 +59,7 @@ class TipContourFinder {
 
   static constexpr std::size_t most_radii = 160;
   std::vector<Colour> ray_;  // colours along one angle, with a margin at both ends
+  std::vector<float> log_radius_;
   std::vector<float> edge_;  // angles by radii
   std::vector<float> sharp_;
   std::vector<float> like_;

@@ -16,29 +16,29 @@ constexpr double rare_cost = 0.06;  // longer ones need that much more evidence
 constexpr int outline_points = 25;
 constexpr std::array<double, 3> leans{-0.4, 0, 0.4};  // of the tip against the finger
 constexpr std::array<double, 2> widths{1.0, 0.88};    // of the tip against the finger
-constexpr std::array<double, 1> coarse_leans{0};
-constexpr std::array<double, 1> coarse_widths{1.0};
-constexpr double sides_weight = 0.4;    // the straight finger behind the tip must have sides,
-constexpr double beyond_weight = 0.35;  // and none beyond it
-constexpr double in_front_px = 24;      // of the border: a touch at the screen's edge, seen by its whole tip
+constexpr std::array<double, 1> first_widths{1.0};    // at the first look
+constexpr double sides_weight = 0.4;                  // the straight finger behind the tip must have sides,
+constexpr double beyond_weight = 0.35;                // and none beyond it
+constexpr double in_front_px = 24;  // of the border: a touch at the screen's edge, seen by its whole tip
 constexpr double step_px = 3;
 constexpr double apart_px = 10;
 constexpr int rows_per_sum = 2;  // as many as a cell of the edge map
 
-// Keeps the strongest of those guesses that are close together, and of them the strongest.
+// Keeps the strongest guesses, and only the strongest of those that are close together.
 template <typename Guesses>
 void keep_strongest(Guesses& guesses, const TipGuess& guess, double apart) {
-  const auto close = std::find_if(guesses.begin(), guesses.end(),
-                                  [&](const TipGuess& other) { return std::abs(other.tip_v - guess.tip_v) < apart; });
-  if (close != guesses.end()) {
-    if (guess.strength > close->strength) *close = guess;
-  } else if (guesses.size() < guesses.capacity()) {
-    guesses.push_back(guess);
-  } else {
-    const auto weakest = std::min_element(guesses.begin(), guesses.end(),
-                                          [](const auto& x, const auto& y) { return x.strength < y.strength; });
-    if (guess.strength > weakest->strength) *weakest = guess;
+  const auto is_close = [&](const TipGuess& other) { return std::abs(other.tip_v - guess.tip_v) < apart; };
+  const auto is_weaker = [](const TipGuess& x, const TipGuess& y) { return x.strength < y.strength; };
+  for (const TipGuess& other : guesses) {
+    if (is_close(other) && !is_weaker(other, guess)) return;
   }
+  guesses.erase(std::remove_if(guesses.begin(), guesses.end(), is_close), guesses.end());
+  if (guesses.size() < guesses.capacity()) {
+    guesses.push_back(guess);
+    return;
+  }
+  const auto weakest = std::min_element(guesses.begin(), guesses.end(), is_weaker);
+  if (is_weaker(*weakest, guess)) *weakest = guess;
 }
 
 }  // namespace
@@ -153,7 +153,7 @@ TipSearch::Guesses TipSearch::find(const EdgeMap& edges, const FingerAxis& axis,
   const double step = step_px * scale;
   boost::container::static_vector<TipGuess, most_guesses + 1> coarse;
   for (double tip_v = first_v; tip_v < last_v; tip_v += 2 * step)
-    keep_strongest(coarse, best_at(edges, axis, tip_v, {coarse_widths, coarse_leans, 2}), apart_px * scale);
+    keep_strongest(coarse, best_at(edges, axis, tip_v, {first_widths, leans, 2}), apart_px * scale);
   Guesses guesses;
   for (const TipGuess& guess : coarse) {
     for (const double tip_v : {guess.tip_v - step, guess.tip_v, guess.tip_v + step}) {
