@@ -16,7 +16,7 @@
 namespace telehug {
 
 struct DriftOptions {
-  double steady_px = 0.8;     // smaller shifts are noise and the light of hands and screens on the bezel
+  double steady_px = 1.2;     // smaller shifts are noise and the light of hands and screens on the bezel
   double moved_px = 3;        // larger ones are not corrected
   double release_part = 0.6;  // a state is left for a lesser one below this part of its limit
   Duration confirm = 1500ms;  // how long a shift must last to be believed
