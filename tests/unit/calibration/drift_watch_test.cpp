@@ -139,10 +139,10 @@ TEST_F(Watch, WaitsUntilAShiftHasLasted) {
 }
 
 TEST_F(Watch, DoesNotSwingBetweenStates) {
-  EXPECT_EQ(see(pitched(1.0 * one_row_deg), 3s).state, DriftState::moved_slightly);
-  EXPECT_EQ(see(pitched(0.6 * one_row_deg), 3s).state, DriftState::moved_slightly);
+  EXPECT_EQ(see(pitched(1.5 * one_row_deg), 3s).state, DriftState::moved_slightly);
+  EXPECT_EQ(see(pitched(0.9 * one_row_deg), 3s).state, DriftState::moved_slightly);
   EXPECT_EQ(see(pitched(0.3 * one_row_deg), 3s).state, DriftState::steady);
-  EXPECT_EQ(see(pitched(0.6 * one_row_deg), 3s).state, DriftState::steady);
+  EXPECT_EQ(see(pitched(0.9 * one_row_deg), 3s).state, DriftState::steady);
 }
 
 TEST_F(Watch, StaysMovedOnceItWas) {
