@@ -24,14 +24,23 @@ struct BorderPicture {
   std::optional<PointObservation> mark;
 };
 
-Result<BorderPicture> look_at_border(const RigDirectory& rig, const std::filesystem::path& otherwise) {
-  const auto source = rig.triangle ? *rig.triangle : rig.background.value_or(otherwise);
+Result<BorderPicture> look_at_border(const RigDirectory& rig, const std::filesystem::path& source,
+                                     BorderChoice choice) {
   const auto picture = read_picture(source);
   if (!picture) return picture.error();
-  const auto border = find_screen_border(*picture, rig.triangle ? BorderChoice::triangle : BorderChoice::longest);
+  const auto border = find_screen_border(*picture, choice);
   if (!border) return Error{fmt::format("{}: {}", source.string(), border.error().message)};
   return BorderPicture{border->line, find_border_candidates(*picture, border->line),
                        triangle_mark(*border, rig.screen)};
+}
+
+// A triangle whose vertex can't be seen is no reason to give up: the touches choose among the background's edges, too.
+Result<BorderPicture> look_at_border(const RigDirectory& rig, const std::filesystem::path& otherwise) {
+  if (rig.triangle) {
+    auto border = look_at_border(rig, *rig.triangle, BorderChoice::triangle);
+    if (border || !rig.background) return border;
+  }
+  return look_at_border(rig, rig.background.value_or(otherwise), BorderChoice::longest);
 }
 
 Result<std::vector<DotPicture>> read_pictures(const std::vector<const CalibrationTouch*>& touches) {

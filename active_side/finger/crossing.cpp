@@ -22,9 +22,9 @@ constexpr float is_foreground = 2;
 constexpr double least_foreground = 0.5;
 constexpr double foreground_weight = 2;
 constexpr double beside_weight = 0.6;  // of foreground on either side: then this is only a part of a finger
-constexpr int shared_columns = 3;
-constexpr double shared_margin = 1.0;
-constexpr double of_a_finger = 4.3;  // strength that a second finger must bring to be believed
+constexpr int shared_columns = 3;      // an edge of two fingers, or of a finger and its shadow
+constexpr double shared_margin = 1.0;  // of strength: less is the shadow
+constexpr double of_a_finger = 4.3;    // strength that a second finger must bring to be believed
 constexpr double beside_px = 14;
 constexpr double largest_taper = 0.75;  // difference of two edges' slopes
 constexpr double narrowest_px = 14;     // a long nail's tip, at the far end of a wide screen; in pictures 720 rows high
@@ -38,36 +38,6 @@ double slope_of(int index, int slopes) {
 float strength_of(int weighted_sum) {
   return static_cast<float>(weighted_sum) * (step_unit / (all_weight * BorderStrip::rails));
 }
-
-// Least squares of points that come in one after the other.
-class GrowingLine {
- public:
-  void add(double v, double u) {
-    n_ += 1;
-    v_ += v;
-    u_ += u;
-    vv_ += v * v;
-    uv_ += u * v;
-  }
-  [[nodiscard]] FingerEdge line(const FingerEdge& first, double first_weight) const {
-    // The edge that was known before counts like points on it, spread over `reach` rows.
-    constexpr double reach = 8;
-    const double v0 = first.v_px;
-    const double n = n_ + first_weight;
-    const double v_mean = (v_ + first_weight * v0) / n;
-    const double u_mean = (u_ + first_weight * first.u_px) / n;
-    const double spread = vv_ + first_weight * (v0 * v0 + reach * reach) - n * v_mean * v_mean;
-    const double joint = uv_ + first_weight * (v0 * first.u_px + reach * reach * first.slope) - n * v_mean * u_mean;
-    return {u_mean, v_mean, joint / std::max(spread, 1e-9)};
-  }
-
- private:
-  double n_ = 0;
-  double v_ = 0;
-  double u_ = 0;
-  double vv_ = 0;
-  double uv_ = 0;
-};
 
 }  // namespace
 
@@ -189,60 +159,6 @@ double CrossingFinder::foreground_share(const std::vector<float>& foreground, do
   return rails > 0 ? share / rails : 0;
 }
 
-// From the picture itself: the largest step of colour near the edge in row after row, away from the border to both
-// sides as long as there is one; to parts of a pixel.
-FingerEdge CrossingFinder::followed(const Peak& peak, const cv::Mat& bgr, const BorderCurve& border) const {
-  constexpr int reach = 4;  // columns to each side of where the edge is expected
-  constexpr int mean = 3;   // columns and rows that are averaged on each side of a step
-  constexpr int places = 2 * reach + 1;
-  constexpr int row_step = 2;
-  constexpr int most_lost = 4;       // rows without an edge that end it
-  constexpr double least_step = 16;  // grey levels, sum of the channels
-  const double at_border_px = layout_.column_centre_px(peak.column);
-  const double up_px = 65 * layout_.scale;
-  const double down_px = 40 * layout_.scale;
-  const FingerEdge coarse{at_border_px, border.v_at(at_border_px), peak.slope};
-  constexpr double coarse_weight = 3;
-  GrowingLine all;
-  const auto follow = [&](double first_offset, double last_offset, int direction) {
-    int lost = 0;
-    for (double offset = first_offset; direction * (last_offset - offset) >= 0; offset += direction * row_step) {
-      const FingerEdge expected = all.line(coarse, coarse_weight);
-      const auto row = static_cast<int>(std::lround(coarse.v_px + offset));
-      const auto middle = static_cast<int>(std::lround(expected.u_at(row)));
-      if (row < 1 || row > bgr.rows - 2 || middle < reach + mean || middle >= bgr.cols - reach - mean) return;
-      // Interleaved channels of all columns that count, three rows together; then the steps at each place.
-      std::array<int, std::size_t{3} * (places + 2 * mean)> sum;
-      const std::uint8_t* const pixels = bgr.ptr<std::uint8_t>(row) + 3 * (middle - reach - mean);
-      const std::uint8_t* const above = pixels - bgr.step[0];
-      const std::uint8_t* const below = pixels + bgr.step[0];
-      for (std::size_t i = 0; i < sum.size(); ++i)
-        sum[i] = above[i] + pixels[i] + below[i];
-      std::array<int, std::size_t{3} * places> difference;
-      for (std::size_t i = 0; i < difference.size(); ++i)
-        difference[i] = std::abs(sum[i + 12] + sum[i + 15] + sum[i + 18] - sum[i] - sum[i + 3] - sum[i + 6]);
-      std::array<double, places> step;
-      std::size_t best = 0;
-      for (std::size_t i = 0; i < step.size(); ++i) {
-        step[i] = (difference[3 * i] + difference[3 * i + 1] + difference[3 * i + 2]) / 9.0;
-        if (step[i] > step[best]) best = i;
-      }
-      // At the end of the search there may be more beyond it: something else.
-      if (step[best] < least_step || best == 0 || best + 1 == step.size()) {
-        if (++lost > most_lost) return;
-        continue;
-      }
-      lost = 0;
-      const double bend = step[best - 1] - 2 * step[best] + step[best + 1];
-      const double part = bend < 0 ? 0.5 * (step[best - 1] - step[best + 1]) / bend : 0;
-      all.add(row, middle - reach + static_cast<double>(best) + part);
-    }
-  };
-  follow(-3 * layout_.scale, -up_px, -1);
-  follow(3 * layout_.scale, down_px, 1);
-  return all.line(coarse, coarse_weight);
-}
-
 // The pairs that do not overlap and together are worth most: one finger, or two with a gap between their inner edges.
 void CrossingFinder::choose(Pairs& pairs) {
   std::sort(pairs.begin(), pairs.end(), [](const Pair& a, const Pair& b) { return a.right.column < b.right.column; });
@@ -315,6 +231,10 @@ const Crossings& CrossingFinder::find(const std::vector<float>& foreground, cons
   for (const Pair& pair : pairs) {
     if (crossings_.size() == crossings_.capacity()) break;
     Crossing found{{}, {}, pair.strength, 0, 0};
+    const auto coarse = [&](const Peak& peak) {
+      const double u_px = layout_.column_centre_px(peak.column);
+      return FingerEdge{u_px, border.v_at(u_px), peak.slope};
+    };
     const auto reach = [&](const Peak& peak) {
       return static_cast<int>(std::lround(peak.slope * deepest_px / layout_.column_px));
     };
@@ -322,8 +242,8 @@ const Crossings& CrossingFinder::find(const std::vector<float>& foreground, cons
     found.last_column = std::min(layout_.columns - 1, pair.right.column + std::max(0, reach(pair.right)));
     const double left_px = layout_.column_centre_px(pair.left.column);
     const double right_px = layout_.column_centre_px(pair.right.column);
-    found.left = followed(pair.left, bgr, border);
-    found.right = followed(pair.right, bgr, border);
+    found.left = follow_edge(bgr, coarse(pair.left), layout_.scale);
+    found.right = follow_edge(bgr, coarse(pair.right), layout_.scale);
     const double middle_v = border.v_at(0.5 * (left_px + right_px));
     if (found.right.u_at(middle_v) - found.left.u_at(middle_v) < narrowest_px * layout_.scale) continue;
     crossings_.push_back(found);

@@ -14,17 +14,9 @@
 #include "calibration/border_curve.hpp"
 #include "common/messages.hpp"
 #include "finger/border_strip.hpp"
+#include "finger/finger_edge.hpp"
 
 namespace telehug {
-
-// A straight edge in the picture: u = u_px + slope (v - v_px).
-struct FingerEdge {
-  double u_px = 0;
-  double v_px = 0;
-  double slope = 0;
-
-  [[nodiscard]] double u_at(double v) const noexcept { return u_px + slope * (v - v_px); }
-};
 
 struct Crossing {
   FingerEdge left;
@@ -78,7 +70,6 @@ class CrossingFinder {
   // On the rails next to the border, between columns given there with the slopes of edges.
   [[nodiscard]] double foreground_share(const std::vector<float>& foreground, double from, double from_slope, double to,
                                         double to_slope) const;
-  [[nodiscard]] FingerEdge followed(const Peak& peak, const cv::Mat& bgr, const BorderCurve& border) const;
 
   // Of an edge from the border to a rail, in columns.
   [[nodiscard]] int shift(double slope, int rail) const noexcept;
