@@ -10,12 +10,12 @@
 #include "capture/frame.hpp"
 #include "capture/frame_check.hpp"
 #include "common/clock.hpp"
+#include "detection/upright_picture.hpp"
 #include "finger/any_detector.hpp"
 #include "publish/touch_event_builder.hpp"
 #include "service/metrics.hpp"
 #include "touch/contact_tracker.hpp"
 #include "touch/gesture_recogniser.hpp"
-#include "upright_picture.hpp"
 
 namespace telehug {
 

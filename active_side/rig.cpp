@@ -11,7 +11,7 @@
 #include "body_map/picture_grabber.hpp"
 #include "calibration/calibration_file.hpp"
 #include "config/places.hpp"
-#include "make_detector.hpp"
+#include "detection/make_detector.hpp"
 
 namespace telehug {
 namespace {

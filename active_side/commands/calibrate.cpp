@@ -17,11 +17,11 @@
 #include "commands/config_options.hpp"
 #include "config/locator.hpp"
 #include "config/places.hpp"
+#include "detection/make_detector.hpp"
+#include "detection/upright_picture.hpp"
 #include "eval/empty_rig.hpp"
 #include "eval/rig_calibration.hpp"
 #include "finger/background_file.hpp"
-#include "make_detector.hpp"
-#include "upright_picture.hpp"
 
 namespace telehug {
 namespace {

@@ -13,11 +13,12 @@
 
 #include "capture/rig_directory.hpp"
 #include "common/clock.hpp"
+#include "detection/make_detector.hpp"
+#include "detection/upright_picture.hpp"
 #include "eval/empty_rig.hpp"
 #include "eval/rig_calibration.hpp"
 #include "finger/any_detector.hpp"
 #include "pictures/picture_file.hpp"
-#include "touch/camera_foot.hpp"
 #include "touch/contact_tracker.hpp"
 #include "touch/screen_points.hpp"
 
@@ -31,20 +32,15 @@ Status check_choice(const char* option, const std::string& choice) {
   return Error{fmt::format("--{} {} is unknown; there are: thesis, default", option, choice)};
 }
 
-// Only the default detector with the default model can tell touching from hovering.
-TrackerOptions tracker_options(const Calibration& calibration, const AnyDetector& detector) {
-  const auto* const rig = std::get_if<RigCalibration>(&calibration.solved);
-  TrackerOptions options;
-  options.every_finger_touches = rig == nullptr || !std::holds_alternative<FingerDetector>(detector);
-  if (rig != nullptr) options.camera = camera_foot(rig->solution.model.camera, calibration.screen);
-  return options;
-}
-
 // Reads the pictures of a part in order and collects what is found in each.
 class Evaluation {
  public:
   Evaluation(EvalTouchReport& report, AnyDetector detector)
-      : report_(report), detector_(std::move(detector)), tracker_(tracker_options(report.calibration, detector_)) {}
+      : report_(report),
+        detector_(std::move(detector)),
+        model_(upright(report.calibration).model()),
+        upright_(report.calibration.image, is_upside_down(report.calibration)),
+        tracker_(tracker_options(report.calibration, detector_)) {}
 
   void run(const RigPart& part) {
     const bool is_recording = part.name == "sequence";
@@ -77,7 +73,7 @@ class Evaluation {
       return {};
     }
     const auto touched =
-        screen_points(detect(detector_, *picture), report_.calibration.model(), report_.calibration.screen, image);
+        screen_points(detect(detector_, upright_.of(*picture)), model_, report_.calibration.screen, image);
     report_.dropped += touched.dropped;
     return touched.fingers;
   }
@@ -103,19 +99,25 @@ class Evaluation {
 
   EvalTouchReport& report_;
   AnyDetector detector_;
+  TouchModel model_;
+  UprightPicture upright_;
   ContactTracker tracker_;
 };
 
-Result<AnyDetector> make_detector(const std::string& choice, const Calibration& calibration, const RigDirectory& rig) {
+Result<AnyDetector> detector_for(const std::string& choice, const Calibration& calibration, const RigDirectory& rig) {
   try {
-    if (choice == "thesis") return AnyDetector(ThesisDetector(calibration.border, calibration.image));
-    const auto empty = picture_of_empty_rig(rig);
-    if (!empty) return empty.error();
-    FingerDetector detector(border_curve(calibration), *empty);
-    if (const auto* const rig_calibration = std::get_if<RigCalibration>(&calibration.solved)) {
-      detector.know_camera(rig_calibration->solution.model.camera);
+    if (choice == "thesis") return make_detector(choice, calibration, std::nullopt);
+    const auto picture = picture_of_empty_rig(rig);
+    if (!picture) return picture.error();
+    const BorderStrip::Layout layout = strip_layout(calibration);
+    if (picture->cols != layout.image.width_px || picture->rows != layout.image.height_px) {
+      return Error{fmt::format("{}: the picture with nobody there has {}x{} pixels, but the calibration has {}x{}",
+                               rig.path.string(), picture->cols, picture->rows, layout.image.width_px,
+                               layout.image.height_px)};
     }
-    return AnyDetector(std::move(detector));
+    BorderStrip empty(layout);
+    empty.sample(UprightPicture(layout.image, is_upside_down(calibration)).of(*picture), layout);
+    return make_detector(choice, calibration, empty);
   } catch (const std::invalid_argument& problem) {
     return Error{fmt::format("{}: {}", rig.path.string(), problem.what())};
   }
@@ -151,7 +153,7 @@ Result<EvalTouchReport> eval_touch(const EvalTouchOptions& options) {
   if (!calibration) return calibration.error();
 
   const std::string model = calibration->model_name();
-  auto detector = make_detector(options.detector, *calibration, *rig);
+  auto detector = detector_for(options.detector, *calibration, *rig);
   if (!detector) return detector.error();
   EvalTouchReport report{options, options.detector, model, std::move(*calibration), {}, {}, 0, std::nullopt};
   Evaluation(report, *std::move(detector)).run(*part);

@@ -8,11 +8,11 @@
 #include <opencv2/core.hpp>
 
 #include "body_map/vitruvian_grid.hpp"
+#include "detection/make_detector.hpp"
 #include "doubles/allocation_counter.hpp"
 #include "doubles/drawn_finger.hpp"
 #include "doubles/example_messages.hpp"
 #include "doubles/fake_clock.hpp"
-#include "make_detector.hpp"
 
 namespace telehug {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "make_detector.hpp"
+#include "detection/make_detector.hpp"
 
 #include <fmt/core.h>
 
