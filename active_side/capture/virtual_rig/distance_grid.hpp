@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <opencv2/core/matx.hpp>
 #include <vector>
 
@@ -34,7 +35,8 @@ struct Box3 {
 Box3 box_around(const std::vector<Limb>& limbs, float margin_mm);
 
 // The smooth union of limbs, sampled on a grid, and its surface as a mesh by the method of surface nets (Gibson 1998):
-// one vertex in every cell that the surface crosses, at the mean of its crossings with the cell's edges.
+// one vertex in every cell that the surface crosses, at the mean of its crossings with the cell's edges. Only blocks of
+// the grid near the surface are looked at.
 class DistanceGrid {
  public:
   DistanceGrid(const Box3& box, float step_mm);
@@ -42,23 +44,32 @@ class DistanceGrid {
   // Blends with what was added before (polynomial smooth minimum, Quilez 2013).
   void add(const Limb& limb);
 
-  // Vertices take tint and gloss of the nearest of `limbs`.
-  [[nodiscard]] TriangleMesh surface(const std::vector<Limb>& limbs) const;
+  [[nodiscard]] TriangleMesh surface(const cv::Vec3f& tint, float gloss) const;
 
  private:
-  [[nodiscard]] float& at(int x, int y, int z) { return values_[index(x, y, z)]; }
   [[nodiscard]] float at(int x, int y, int z) const { return values_[index(x, y, z)]; }
   [[nodiscard]] std::size_t index(int x, int y, int z) const {
     return (static_cast<std::size_t>(z) * static_cast<std::size_t>(size_[1]) + static_cast<std::size_t>(y)) *
                static_cast<std::size_t>(size_[0]) +
            static_cast<std::size_t>(x);
   }
-  [[nodiscard]] cv::Vec3f gradient(const cv::Vec3f& cell_place) const;
+  [[nodiscard]] std::size_t block_index(const cv::Vec3i& block) const {
+    return static_cast<std::size_t>((block[2] * blocks_[1] + block[1]) * blocks_[0] + block[0]);
+  }
+  void add_to_block(const Limb& limb, const cv::Vec3i& block);
+  void fill_block(const cv::Vec3i& block, float at_most_mm);
+  [[nodiscard]] cv::Vec3f gradient(const cv::Vec3i& cell, const cv::Vec3f& in_cell) const;
+
+  // Calls step(x, y, z) for the cells of the blocks that the surface may cross, from sample `from` on along each axis.
+  template <typename Step>
+  void near_surface(int from, Step&& step) const;
 
   cv::Vec3f origin_;
   float step_mm_;
-  cv::Vec3i size_;
+  cv::Vec3i blocks_;
+  cv::Vec3i size_;  // of samples: whole blocks
   std::vector<float> values_;
+  std::vector<std::uint8_t> near_;  // of blocks: whether some limb's surface may cross it
 };
 
 }  // namespace telehug

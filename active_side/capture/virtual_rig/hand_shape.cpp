@@ -27,11 +27,24 @@ cv::Vec3f lowest_of(const TriangleMesh& mesh) {
   return lowest->place_mm;
 }
 
+// What the screen may press flat and 2 mm above it: nothing else of a finger's end need be meshed as finely.
+Box3 box_of_lower_side(const std::vector<Limb>& finger, float press_mm) {
+  Box3 box = box_around({finger.front()}, 2);
+  float lowest_mm = box.high[2];
+  for (const Limb& limb : finger) {
+    const float upright = limb.flat_axis[2] * limb.flat_axis[2];  // how far an ellipsoid of revolution reaches down
+    const float share = std::sqrt(1 - upright + upright * limb.flatness * limb.flatness);
+    lowest_mm = std::min({lowest_mm, limb.a[2] - limb.a_radius_mm * share, limb.b[2] - limb.b_radius_mm * share});
+  }
+  box.high[2] = std::min(box.high[2], lowest_mm + press_mm + 2);
+  return box;
+}
+
 EndContact contact_of(const FingerEnd& end, const std::vector<Limb>& finger, const HandLooks& looks, float press_mm) {
-  DistanceGrid grid(box_around({finger.front()}, 2), patch_step_mm);
+  DistanceGrid grid(box_of_lower_side(finger, press_mm), patch_step_mm);
   for (const Limb& limb : finger)
     grid.add(limb);
-  const TriangleMesh skin = grid.surface(finger);
+  const TriangleMesh skin = grid.surface({}, 0);
   EndContact contact;
   contact.lowest_mm = lowest_of(skin);
   if (looks.sleeve != Sleeve::glove) {
@@ -95,8 +108,9 @@ HandShape hand_shape(const HandPose& pose, const HandLooks& looks) {
     fine.add(limb);
     coarse.add(limb);
   }
-  shape.mesh = fine.surface(skeleton.limbs);
-  TriangleMesh rest = coarse.surface(skeleton.limbs);
+  const Limb& skin = skeleton.limbs.front();
+  shape.mesh = fine.surface(skin.tint, skin.gloss);
+  TriangleMesh rest = coarse.surface(skin.tint, skin.gloss);
   std::erase_if(rest.triangles, [&](const MeshTriangle& triangle) {
     return std::all_of(triangle.corners.begin(), triangle.corners.end(), [&](std::uint32_t corner) {
       return fine_box.holds(rest.vertices[corner].place_mm, 2 * finger_step_mm);
@@ -107,7 +121,7 @@ HandShape hand_shape(const HandPose& pose, const HandLooks& looks) {
     DistanceGrid cloth(box_around(skeleton.clothes, 2 * hand_step_mm), hand_step_mm);
     for (const Limb& limb : skeleton.clothes)
       cloth.add(limb);
-    shape.mesh.append(cloth.surface(skeleton.clothes));
+    shape.mesh.append(cloth.surface(skeleton.clothes.front().tint, 0));
   }
   if (looks.sleeve != Sleeve::glove) {
     for (std::size_t i = 0; i < skeleton.ends.size(); ++i) {

@@ -15,6 +15,7 @@
 
 #include "capture/virtual_rig/random_frame.hpp"
 #include "capture/virtual_rig/rig_renderer.hpp"
+#include "capture/virtual_rig/touch_script.hpp"
 #include "common/clock.hpp"
 
 namespace telehug {
@@ -44,6 +45,41 @@ Figure measured(std::string name, int times, Step&& step) {
   return figure;
 }
 
+// The usual rig's script, while a finger is there, and at 60 Hz.
+Figure measure_gesture() {
+  const VirtualRigSettings settings;
+  RigRenderer renderer(settings);
+  const TouchScript script = default_script(settings.screen);
+  std::vector<std::vector<HandPose>> frames;
+  for (double time_s = 0; time_s < script.length_s; time_s += 1.0 / 60) {
+    std::vector<HandPose> hands = hands_at(script, time_s);
+    if (!hands.empty()) frames.push_back(std::move(hands));
+  }
+  cv::Mat bgr;
+  return measured("rig.gesture_frame", static_cast<int>(frames.size()), [&](int i) {
+    renderer.draw(frames[static_cast<std::size_t>(i)], static_cast<std::uint64_t>(i), bgr);
+  });
+}
+
+// Single pictures of random rigs, each with a hand in a pose that was not there before.
+Figure measure_random_pictures() {
+  constexpr int rigs = 6;
+  constexpr int pictures = 25;
+  Figure figure{"rig.random_picture", {}};
+  cv::Mat bgr;
+  for (std::uint64_t seed = 0; seed < rigs; ++seed) {
+    const RandomRig rig = random_rig(seed);
+    RigRenderer renderer(rig.settings);
+    const Figure of_rig = measured("", pictures, [&](int i) {
+      const auto index = static_cast<std::uint64_t>(i);
+      const FrameKind kind = i % 4 == 3 ? FrameKind::hover : FrameKind::touch;
+      renderer.draw(random_frame(rig, kind, index).hands, index, bgr);
+    });
+    figure.ms.insert(figure.ms.end(), of_rig.ms.begin(), of_rig.ms.end());
+  }
+  return figure;
+}
+
 std::vector<Figure> measure() {
   VirtualRigSettings settings;
   RigRenderer renderer(settings);
@@ -65,6 +101,8 @@ std::vector<Figure> measure() {
   }));
   figures.push_back(measured("rig.frame_one_hand", rounds, [&](int i) { stroke(i, false); }));
   figures.push_back(measured("rig.frame_two_hands", rounds, [&](int i) { stroke(i, true); }));
+  figures.push_back(measure_gesture());
+  figures.push_back(measure_random_pictures());
   figures.push_back(measured("rig.new_pose", 20, [&](int i) {
     HandPose pose;
     pose.approach_deg = 40 + i;
