@@ -18,6 +18,10 @@ pkg_check_modules(liblo REQUIRED IMPORTED_TARGET liblo)
 pkg_check_modules(libjpeg REQUIRED IMPORTED_TARGET libjpeg)
 pkg_check_modules(libpng REQUIRED IMPORTED_TARGET libpng)
 
+find_library(XNNPACK_LIBRARY XNNPACK REQUIRED)
+add_library(xnnpack::xnnpack UNKNOWN IMPORTED GLOBAL)
+set_target_properties(xnnpack::xnnpack PROPERTIES IMPORTED_LOCATION ${XNNPACK_LIBRARY})
+
 # OpenCV part by part: the package with the complete CMake description pulls in 40 packages more that nothing here uses.
 find_path(OPENCV_INCLUDE_DIR opencv2/core.hpp PATH_SUFFIXES opencv4 REQUIRED)
 foreach(part core imgproc objdetect)

@@ -3,6 +3,7 @@
 
 #include <fmt/core.h>
 
+#include <optional>
 #include <utility>
 #include <variant>
 
@@ -26,11 +27,9 @@ AnyDetector make_detector(const std::string& choice, const Calibration& calibrat
                           const std::optional<BorderStrip>& background) {
   const Calibration turned = upright(calibration);
   if (choice == "thesis") return ThesisDetector(turned.border, turned.image);
-  FingerDetector detector(border_curve(turned), turned.image, background);
-  if (const auto* const rig = std::get_if<RigCalibration>(&turned.solved)) {
-    detector.know_camera(rig->solution.model.camera);
-  }
-  return detector;
+  const auto* const rig = std::get_if<RigCalibration>(&turned.solved);
+  return FingerDetector(border_curve(turned), turned.image, background,
+                        rig == nullptr ? std::nullopt : std::optional(rig->solution.model.camera));
 }
 
 TrackerOptions tracker_options(const Calibration& calibration, const AnyDetector& detector) {

@@ -27,8 +27,6 @@ BackgroundStrip::BackgroundStrip(const BorderStrip::Layout& layout, const Border
       background_(empty),
       inverse_deviation_(layout.cells() * BorderStrip::channels),
       distance_(layout.cells()),
-      difference_(layout.cells() * BorderStrip::channels),
-      new_edges_(layout.cells()),
       scratch_(static_cast<std::size_t>(layout.columns)) {
   for (int rail = 0; rail < BorderStrip::rails; ++rail)
     set_background(rail);
@@ -114,11 +112,6 @@ const std::vector<float>& BackgroundStrip::distance(const BorderStrip& strip) {
       gain = better_gain(rail, gain);
     gain_[static_cast<std::size_t>(r)] = gain;
     const auto start = static_cast<std::ptrdiff_t>(r) * columns_;
-    for (std::size_t k = 0; k < gain.size(); ++k) {
-      float* const difference = difference_.data() + static_cast<std::ptrdiff_t>(k * distance_.size()) + start;
-      for (int i = 0; i < columns_; ++i)
-        difference[i] = difference_at(rail, gain, k, i);
-    }
     float* const distance = distance_.data() + start;
     for (int i = 0; i < columns_; ++i) {
       const float d = std::min(std::sqrt(distance2(rail, gain, i) / BorderStrip::channels), far);
@@ -128,24 +121,6 @@ const std::vector<float>& BackgroundStrip::distance(const BorderStrip& strip) {
   }
   unchanged_share_ = static_cast<double>(alike) / static_cast<double>(distance_.size());
   return distance_;
-}
-
-// Of the whole planes at once; the outermost cells are set to none, their neighbours lie on other rails.
-const std::vector<float>& BackgroundStrip::new_edges() {
-  const auto plane = static_cast<std::ptrdiff_t>(distance_.size());
-  const float* const blue = difference_.data();
-  const float* const green = blue + plane;
-  const float* const red = green + plane;
-  float* const edge = new_edges_.data();
-  for (std::ptrdiff_t i = 1; i + 1 < plane; ++i) {
-    const float b = blue[i + 1] - blue[i - 1];
-    const float g = green[i + 1] - green[i - 1];
-    const float r = red[i + 1] - red[i - 1];
-    edge[i] = std::min(std::sqrt((b * b + g * g + r * r) / BorderStrip::channels), far);
-  }
-  for (std::ptrdiff_t first = 0; first < plane; first += columns_)
-    edge[first] = edge[first + columns_ - 1] = 0;
-  return new_edges_;
 }
 
 void BackgroundStrip::adapt(const BorderStrip& strip, const std::vector<bool>& is_finger) {

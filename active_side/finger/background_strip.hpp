@@ -24,9 +24,6 @@ class BackgroundStrip {
   // Valid until the next call. Allocates nothing.
   static constexpr float far = 6;
   const std::vector<float>& distance(const BorderStrip& strip);
-  // How much the strip's difference from the background changes about each cell along its rail, in standard
-  // deviations, cut off at `far`: edges that are not the background's own. Of the last distance().
-  const std::vector<float>& new_edges();
 
   // The share of cells that looked like background in the last distance(): near 0 when the light was switched or the
   // camera was moved.
@@ -60,8 +57,6 @@ class BackgroundStrip {
   BorderStrip background_;
   std::vector<float> inverse_deviation_;  // of each value
   std::vector<float> distance_;
-  std::vector<float> difference_;  // of each value from the background, in standard deviations
-  std::vector<float> new_edges_;
   std::array<Gain, BorderStrip::rails> gain_{};  // background = gain * frame
   std::vector<float> scratch_;
   double unchanged_share_ = 1;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <boost/container/static_vector.hpp>
+#include <optional>
 
 #include "common/messages.hpp"
 #include "common/units.hpp"
@@ -16,7 +17,8 @@ struct Finger {
   double left_px = 0;    // columns of the finger's two edges at the border, left_px < right_px
   double right_px = 0;
   double width_px = 0;       // of the finger right behind its tip; 0: not measured
-  double tip_radius_px = 0;  // of its outline's curvature at the tip; 0: not measured
+  // Where it touches, if the detector knows more than its foremost point.
+  std::optional<ImagePoint> contact = std::nullopt;
   double px_per_mm = 0;      // of the picture at the tip; 0: not known
   MirrorEvidence mirror = {};
 };

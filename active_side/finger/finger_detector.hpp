@@ -1,17 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The default detector: every finger that crosses the screen's bottom edge, its tip to parts of a pixel. It knows no
-// colour of skin: fingers are what differs from the background in front of the screen, and what looks like that goes on
-// over the screen until it ends.
+// The default detector: every finger that crosses the screen's bottom edge, and where it touches, to parts of a pixel.
 //
-//   strip      what lies in front of the border, along it          border_strip
-//   foreground what differs there from when nobody was there       background_strip
-//   crossings  bands of it with two nearly straight edges          crossing
-//   colours    of this finger, and of what is beside it            finger_colours
-//   guesses    rows where its tip may be                           tip_search
-//   contour    the tip's outline                                   tip_contour
-//   tip        the outline's foremost point                        tip_shape
-//   mirror     does its mirror image begin there                   mirror_evidence
+//   strip      what lies in front of the border, along it            border_strip
+//   foreground what differs there from when nobody was there         background_strip
+//   overview   the picture about the border, coarsely, with both     overview
+//   tips       where in it fingers end: a small trained net          net/overview_net
+//   patch      the picture about a tip, at a scale in mm             tip_patch
+//   look       where it touches, whether it does: another one        net/tip_net
+//
+// What the nets learned is in active_side/training; no picture of a real person or of a real rig is in it.
 #pragma once
 
 #include <cstdint>
@@ -25,27 +23,23 @@
 #include "common/units.hpp"
 #include "finger/background_learner.hpp"
 #include "finger/background_strip.hpp"
-#include "finger/crossing.hpp"
 #include "finger/finger.hpp"
-#include "finger/tip_contour.hpp"
+#include "finger/overview.hpp"
+#include "net/overview_net.hpp"
+#include "net/tip_net.hpp"
 
 namespace telehug {
 
 class FingerDetector {
  public:
-  // `empty` (CV_8UC3) shows the rig with nobody there; it fixes the size of the pictures. Throws std::invalid_argument
-  // if it is no such picture or too small.
-  FingerDetector(const BorderCurve& border, const cv::Mat& empty);
+  // With the background that was kept (how the strip in front of the border looks with nobody there), or none: then
+  // adapt() learns it, and until it has, there are no fingers. Without a camera the picture's scale is taken as that of
+  // a usual rig. Throws std::invalid_argument if pictures of this size show too little of the screen.
+  FingerDetector(const BorderCurve& border, ImageSize image, const std::optional<BorderStrip>& background,
+                 const std::optional<RigCamera>& camera);
 
-  // With the background that was kept, or none: then adapt() learns it, and until it has, there are no fingers. Throws
-  // std::invalid_argument if pictures of this size are too small.
-  FingerDetector(const BorderCurve& border, ImageSize image, const std::optional<BorderStrip>& background);
-
-  // With the camera the detector also says what the screen's mirror image tells of each finger.
-  void know_camera(const RigCamera& camera) { camera_ = camera; }
-
-  // From the strongest crossing on. `bgr` must be CV_8UC3 of the size of `empty`; other pictures hold no finger and are
-  // counted. The result lives until the next call. Allocates nothing.
+  // In no order. `bgr` must be CV_8UC3 of the size given; other pictures hold no finger and are counted.
+  // The result lives until the next call. Allocates nothing.
   const Fingers& detect(const cv::Mat& bgr);
 
   // After detect() of a live camera's frame that can be believed: learns how the rig looks now. `now` never decreases.
@@ -54,16 +48,15 @@ class FingerDetector {
   // Until it knows how the rig looks, and while everything looks different, what detect() finds means nothing.
   [[nodiscard]] const BackgroundLearner& background() const noexcept { return learner_; }
 
-  // The outlines of the last frame's fingers, in their order.
-  [[nodiscard]] const boost::container::static_vector<TipContour, max_contacts>& contours() const noexcept {
-    return contours_;
-  }
   // The share of the strip that looked as always in the last frame.
   [[nodiscard]] double unchanged_share() const noexcept { return background_.unchanged_share(); }
   [[nodiscard]] std::uint64_t unfit_pictures() const noexcept { return unfit_pictures_; }
 
  private:
-  void add_finger(const cv::Mat& bgr, std::size_t which);
+  [[nodiscard]] double px_per_mm(const ImagePoint& place) const;
+  void add_finger(const cv::Mat& bgr, const ImagePoint& near);
+  [[nodiscard]] std::optional<Finger> look_at(const cv::Mat& bgr, ImagePoint tip);
+  void mark_columns(const Finger& finger);
 
   BorderCurve border_;
   ImageSize image_;
@@ -72,16 +65,11 @@ class FingerDetector {
   BorderStrip strip_;
   BackgroundStrip background_;
   BackgroundLearner learner_;
-  CrossingFinder crossing_finder_;
-  EdgeMap edges_;
-  FingerColours colours_;
-  TipSearch tip_search_;
-  TipContourFinder contour_finder_;
-  std::vector<FingerAxis> axes_;
-  std::vector<FingerAxis> others_;
+  Overview overview_;
+  OverviewNet overview_net_;
+  TipNet tip_net_;
   std::vector<bool> is_finger_;  // columns of the strip
   Fingers fingers_;
-  boost::container::static_vector<TipContour, max_contacts> contours_;
   std::uint64_t unfit_pictures_ = 0;
 };
 

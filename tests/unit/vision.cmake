@@ -15,15 +15,15 @@ telehug_test(test_calibration_dot KIND unit SUBJECT touch SOURCES unit/calibrati
   DEPS active_calibration opencv::imgproc)
 telehug_test(test_drift_watch KIND unit SUBJECT touch
   SOURCES doubles/allocation_counter.cpp unit/calibration/drift_watch_test.cpp DEPS active_calibration)
+telehug_test(test_net KIND unit SUBJECT touch
+  SOURCES doubles/allocation_counter.cpp unit/net/nets_test.cpp unit/net/tensors_test.cpp DEPS active_net)
 telehug_test(test_finger KIND unit SUBJECT touch
   SOURCES doubles/allocation_counter.cpp unit/finger/aligned_patch_test.cpp unit/finger/finger_colour_test.cpp
-          unit/finger/finger_edges_test.cpp unit/finger/mirror_evidence_test.cpp
-          unit/finger/recorded_mirrors_test.cpp unit/finger/thesis_detector_test.cpp
+          unit/finger/finger_edges_test.cpp unit/finger/thesis_detector_test.cpp
   DEPS active_finger telehug_pictures opencv::imgproc)
 telehug_test(test_finger_stages KIND unit SUBJECT touch
   SOURCES doubles/allocation_counter.cpp unit/finger/background_strip_test.cpp unit/finger/border_strip_test.cpp
-          unit/finger/crossing_test.cpp unit/finger/edge_map_test.cpp unit/finger/tip_search_test.cpp
-          unit/finger/tip_shape_test.cpp
+          unit/finger/overview_test.cpp unit/finger/tip_patch_test.cpp
   DEPS active_finger opencv::core)
 telehug_test(test_background KIND unit SUBJECT touch
   SOURCES unit/finger/background_file_test.cpp unit/finger/background_learner_test.cpp

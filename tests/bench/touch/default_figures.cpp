@@ -59,8 +59,10 @@ Figures measure_default(ImageSize image, int fingers, const std::string& suffix)
   renderer.draw(std::vector<HandPose>{}, 0, empty);
   const RigCamera camera = known_camera(rig.settings);
   const BorderCurve border(camera, rig.settings.screen);
-  FingerDetector detector(border, empty);
-  detector.know_camera(camera);
+  const BorderStrip::Layout layout(border, image);
+  BorderStrip background(layout);
+  background.sample(empty, layout);
+  FingerDetector detector(border, image, background, camera);
 
   TouchedRig touched{image, rig.settings.screen, RigModel{camera, 5}, {}};
   const auto wanted = static_cast<std::size_t>(fingers);
@@ -73,7 +75,7 @@ Figures measure_default(ImageSize image, int fingers, const std::string& suffix)
   if (touched.pictures.size() < pictures) throw std::runtime_error("too few pictures with all fingers in them");
 
   Figures figures = measure_path(detector, touched, "", suffix);
-  for (Figure& figure : measure_stages(border, empty, touched.pictures, suffix))
+  for (Figure& figure : measure_stages(border, camera, empty, touched.pictures, suffix))
     figures.push_back(std::move(figure));
   return figures;
 }

@@ -1,24 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bench/touch/detector_stages.hpp"
 
-#include <algorithm>
 #include <array>
-#include <span>
 
 #include "finger/background_strip.hpp"
 #include "finger/border_strip.hpp"
-#include "finger/crossing.hpp"
-#include "finger/edge_map.hpp"
-#include "finger/finger_axis.hpp"
-#include "finger/finger_colours.hpp"
-#include "finger/tip_contour.hpp"
-#include "finger/tip_search.hpp"
-#include "finger/tip_shape.hpp"
+#include "finger/overview.hpp"
+#include "finger/picture_scale.hpp"
+#include "finger/tip_patch.hpp"
+#include "net/overview_net.hpp"
+#include "net/tip_net.hpp"
 
 namespace telehug {
 namespace {
 
-constexpr std::array stages{"strip", "foreground", "crossings", "edges", "colours", "guesses", "contour", "tip"};
+constexpr std::array stages{"strip", "foreground", "overview", "tips", "patch", "look"};
 using StageTimes = std::array<double, stages.size()>;
 
 BorderStrip sampled(const cv::Mat& bgr, const BorderStrip::Layout& layout) {
@@ -27,19 +23,17 @@ BorderStrip sampled(const cv::Mat& bgr, const BorderStrip::Layout& layout) {
   return strip;
 }
 
-// The stages as FingerDetector calls them.
+// The stages as FingerDetector calls them, with one look at each tip.
 class StagedDetector {
  public:
-  StagedDetector(const BorderCurve& border, const cv::Mat& empty)
-      : border_(border),
-        image_{empty.cols, empty.rows},
-        layout_(border, image_),
+  StagedDetector(const BorderCurve& border, const RigCamera& camera, const cv::Mat& empty)
+      : camera_(camera),
+        layout_(border, {empty.cols, empty.rows}),
         strip_(sampled(empty, layout_)),
         background_(layout_, strip_),
-        crossing_finder_(layout_),
-        edges_(image_),
-        colours_(image_),
-        tip_search_(image_) {}
+        overview_(border, layout_,
+                  px_per_mm_at(camera, {empty.cols / 2.0, border.v_at(empty.cols / 2.0)}).value_or(1)),
+        overview_net_(overview_.rows(), overview_.tile_columns()) {}
 
   StageTimes detect(const cv::Mat& bgr) {
     StageTimes ms{};
@@ -48,57 +42,43 @@ class StagedDetector {
     ms[0] = watch.lap_ms();
     const auto& foreground = background_.distance(strip_);
     ms[1] = watch.lap_ms();
-    const Crossings& crossings = crossing_finder_.find(foreground, background_.new_edges(), bgr, border_);
-    ms[2] = watch.lap_ms();
-    for (const Crossing& crossing : crossings)
-      add_finger(bgr, FingerAxis(crossing, border_), ms);
+    for (const int first_column : overview_.tiles(foreground)) {
+      Stopwatch of_tile;
+      overview_.sample(bgr, first_column, overview_.tile_columns(), overview_net_.cells());
+      ms[2] += of_tile.lap_ms();
+      const OverviewNet::Tips tips = overview_net_.find(0);
+      ms[3] += of_tile.lap_ms();
+      for (const OverviewNet::Tip& tip : tips)
+        look_at(bgr, overview_.picture_point(first_column + tip.column, tip.row), ms);
+    }
     return ms;
   }
 
  private:
-  void add_finger(const cv::Mat& bgr, const FingerAxis& axis, StageTimes& ms) {
-    const double scale = image_.height_px / 720.0;
-    const double border_v = axis.border_v_px();
-    const int last_v = image_.height_px - 4;
-    const double a = axis.half_width(border_v);
-    const int first_v = std::max(0, static_cast<int>(border_v - 24 * scale - 4.5 * a));
-    const auto [left_u, right_u] = std::minmax(axis.centre_u(first_v), axis.centre_u(last_v));
-    const double beside_px = 1.25 * a + 30 * scale;
-    const auto left = static_cast<int>(left_u - beside_px);
-    const auto right = static_cast<int>(right_u + beside_px);
+  void look_at(const cv::Mat& bgr, const ImagePoint& tip, StageTimes& ms) {
     Stopwatch watch;
-    edges_.compute(bgr, {left, first_v, right - left, image_.height_px - first_v});
-    ms[3] += watch.lap_ms();
-    colours_.learn(bgr, axis, last_v, {});
+    const double step_px = px_per_mm_at(camera_, tip).value_or(1) / patch_px_per_mm;
+    sample_patch(bgr, {tip, step_px, TipNet::columns, TipNet::rows}, tip_net_.patch());
     ms[4] += watch.lap_ms();
-    const auto guesses = tip_search_.find(edges_, axis, last_v, scale);
+    row_sum_ += tip_net_.look(0, 0).row;
     ms[5] += watch.lap_ms();
-    if (guesses.empty()) return;
-    const TipContour contour = contour_finder_.find(bgr, guesses, colours_);
-    ms[6] += watch.lap_ms();
-    const double slope = border_.slope_at(axis.centre_u(border_v));
-    tip_sum_px_ += fit_tip_shape(contour, guesses.front().finger_half_width_px, slope).tip.v_px;
-    ms[7] += watch.lap_ms();
   }
 
-  BorderCurve border_;
-  ImageSize image_;
+  RigCamera camera_;
   BorderStrip::Layout layout_;
   BorderStrip strip_;
   BackgroundStrip background_;
-  CrossingFinder crossing_finder_;
-  EdgeMap edges_;
-  FingerColours colours_;
-  TipSearch tip_search_;
-  TipContourFinder contour_finder_;
-  double tip_sum_px_ = 0;  // so that nothing is left out as unused
+  Overview overview_;
+  OverviewNet overview_net_;
+  TipNet tip_net_;
+  double row_sum_ = 0;  // so that nothing is left out as unused
 };
 
 }  // namespace
 
-Figures measure_stages(const BorderCurve& border, const cv::Mat& empty, const std::vector<cv::Mat>& pictures,
-                       const std::string& suffix) {
-  StagedDetector detector(border, empty);
+Figures measure_stages(const BorderCurve& border, const RigCamera& camera, const cv::Mat& empty,
+                       const std::vector<cv::Mat>& pictures, const std::string& suffix) {
+  StagedDetector detector(border, camera, empty);
   Figures figures;
   for (const char* const stage : stages)
     figures.push_back({std::string("touch.stage.") + stage + suffix, "ms"});

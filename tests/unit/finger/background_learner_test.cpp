@@ -60,8 +60,15 @@ class BackgroundLearnerTest : public testing::Test {
     return detector_.unchanged_share();
   }
 
+  static FingerDetector detector_that_knows(const cv::Mat& nobody) {
+    const BorderStrip::Layout layout(BorderCurve(border, image), image);
+    BorderStrip strip(layout);
+    strip.sample(nobody, layout);
+    return {BorderCurve(border, image), image, strip, std::nullopt};
+  }
+
   Timestamp now_{};
-  FingerDetector detector_{BorderCurve(border, image), empty()};
+  FingerDetector detector_ = detector_that_knows(empty());
 };
 
 TEST_F(BackgroundLearnerTest, MakesACupThatWasPutThereBackgroundWithinAMinute) {
@@ -107,7 +114,7 @@ TEST_F(BackgroundLearnerTest, TrustsTheOldBackgroundAgainWhenTheLightIsSoonAsItW
 }
 
 TEST_F(BackgroundLearnerTest, LearnsFromTheFirstPicturesInWhichNothingMoves) {
-  detector_ = FingerDetector(BorderCurve(border, image), image, std::nullopt);
+  detector_ = FingerDetector(BorderCurve(border, image), image, std::nullopt, std::nullopt);
   for (int i = 0; i < 30; ++i) {
     see(scene().bar(40 + 10 * i, 100, -200, -3).noise(1, 3).picture());
     EXPECT_FALSE(detector_.background().trusts());

@@ -103,21 +103,6 @@ TEST_F(Background, DistanceEndsAtFar) {
   EXPECT_EQ(at(background_.distance(changed(120)), 3, 305), BackgroundStrip::far);
 }
 
-TEST_F(Background, NewEdgesLieWhereADifferenceBeginsAndEnds) {
-  background_.distance(changed(12));
-  const auto& edges = background_.new_edges();
-  for (int rail = 0; rail < BorderStrip::rails; ++rail) {
-    for (int i = 0; i < layout_.columns; ++i) {
-      const bool at_edge = (i >= 299 && i <= 300) || (i >= 309 && i <= 310);
-      if (at_edge) {
-        EXPECT_GT(at(edges, rail, i), 1) << i;
-      } else {
-        EXPECT_LT(at(edges, rail, i), 0.5) << i;
-      }
-    }
-  }
-}
-
 TEST_F(Background, AnotherSceneIsUnchangedHardlyAnywhere) {
   cv::Mat other(size.height_px, size.width_px, CV_8UC3);
   for (int v = 0; v < other.rows; ++v) {
@@ -147,7 +132,6 @@ TEST_F(Background, AllocatesNothingPerFrame) {
   const std::vector<bool> none(static_cast<std::size_t>(layout_.columns), false);
   const auto before = allocation_count();
   background_.distance(now);
-  background_.new_edges();
   background_.adapt(now, none);
   EXPECT_EQ(allocation_count(), before);
 }

@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "finger/overview.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <stdexcept>
+
+#include "finger/background_strip.hpp"
+
+namespace telehug {
+namespace {
+
+constexpr double edge_reach_cells = 16;  // the distance from the edge is told up to here
+constexpr int least_cells = 16;
+constexpr int most_cell_px = 64;
+constexpr std::size_t channels = 5;
+
+// A finger's tip lies at most so far beside the columns in which it crosses the strip.
+constexpr int usual_tile_columns = 128;
+constexpr int beside_columns = 36;
+// Standard deviations from the background, and in how many cells of a column; noise hardly ever reaches that.
+constexpr float different = 2;
+constexpr int least_different = 2;
+
+// Which rail of the strip lies `offset_px` rows (in pictures 720 rows high) in front of the edge; -1: none.
+int rail_at(double offset_px) {
+  constexpr double between_px = 20;  // near rails before, the others beyond
+  if (offset_px < 2 || offset_px > 68) return -1;
+  if (offset_px < between_px) return std::clamp(static_cast<int>(std::lround((offset_px - 3) / 2)), 0, 7);
+  return std::clamp(8 + static_cast<int>(std::lround((offset_px - 23) / 6)), 8, BorderStrip::rails - 1);
+}
+
+}  // namespace
+
+Overview::Overview(const BorderCurve& border, const BorderStrip::Layout& strip, double px_per_mm)
+    : cell_px_(std::clamp(static_cast<int>(std::lround(cell_mm * px_per_mm)), 1, most_cell_px)),
+      cells_of_strip_(std::max(1, cell_px_ / strip.column_px)) {
+  const ImageSize& image = strip.image;
+  columns_ = image.width_px / cell_px_;
+  tile_columns_ = std::min(columns_, usual_tile_columns);
+  double highest = image.height_px;
+  for (int u = 0; u < image.width_px; ++u)
+    highest = std::min(highest, border.v_at(u));
+  const int in_front_px = static_cast<int>(std::lround(in_front_mm / cell_mm)) * cell_px_;
+  first_row_px_ = std::clamp(static_cast<int>(highest) - in_front_px, 0, image.height_px);
+  rows_ = (image.height_px - first_row_px_) / cell_px_;
+  if (columns_ < least_cells || rows_ < least_cells) {
+    throw std::invalid_argument("too little of the screen is in the picture to look for fingers");
+  }
+  sums_.resize(static_cast<std::size_t>(columns_ * cell_px_) * 3);
+  different_.resize(static_cast<std::size_t>(columns_));
+  for (int row = 0; row < rows_; ++row) {
+    for (int column = 0; column < columns_; ++column) {
+      const ImagePoint middle = picture_point(column, row);
+      const double beyond_px = middle.v_px - border.v_at(middle.u_px);
+      const int rail = rail_at(-beyond_px / strip.scale);
+      const int first = std::clamp(column * cell_px_ / strip.column_px, 0, strip.columns - cells_of_strip_);
+      strip_start_.push_back(rail < 0 ? -1 : rail * strip.columns + first);
+      beyond_edge_.push_back(static_cast<float>(std::clamp(beyond_px / cell_px_ / edge_reach_cells, -1.0, 1.0)));
+    }
+  }
+  difference_.resize(strip_start_.size());
+}
+
+const Overview::Tiles& Overview::tiles(const std::vector<float>& distance) {
+  const float share = 1 / static_cast<float>(cells_of_strip_);
+  std::fill(different_.begin(), different_.end(), 0);
+  for (int row = 0; row < rows_; ++row) {
+    for (int column = 0; column < columns_; ++column) {
+      const int start = strip_start_[cell(row, column)];
+      if (start < 0) continue;
+      float sum = 0;
+      for (int i = 0; i < cells_of_strip_; ++i)
+        sum += distance[static_cast<std::size_t>(start + i)];
+      difference_[cell(row, column)] = sum * share / BackgroundStrip::far;
+      different_[static_cast<std::size_t>(column)] += sum * share > different ? 1 : 0;
+    }
+  }
+  tiles_.clear();
+  int covered = 0;  // columns before this one lie in a tile
+  for (int column = 0; column < columns_ && tiles_.size() < most_tiles; ++column) {
+    if (column < covered || different_[static_cast<std::size_t>(column)] < least_different) continue;
+    const int first = std::clamp(column - beside_columns, 0, columns_ - tile_columns_);
+    tiles_.push_back(first);
+    const int end = first + tile_columns_;
+    covered = end < columns_ ? std::max(column + 1, end - beside_columns) : columns_;
+  }
+  return tiles_;
+}
+
+// `Width` is a cell's, or 0 for cell_px_: known widths take half the time.
+template <int Width>
+void Overview::average_row(int column_count, float* cells) const {
+  const int width = Width > 0 ? Width : cell_px_;
+  const float scale = 1 / (127.5F * static_cast<float>(cell_px_ * cell_px_));
+  const unsigned short* sum = sums_.data();
+  for (int column = 0; column < column_count; ++column, cells += channels) {
+    unsigned b = 0;
+    unsigned g = 0;
+    unsigned r = 0;
+    for (int i = 0; i < width; ++i, sum += 3) {
+      b += sum[0];
+      g += sum[1];
+      r += sum[2];
+    }
+    cells[0] = static_cast<float>(b) * scale - 1;
+    cells[1] = static_cast<float>(g) * scale - 1;
+    cells[2] = static_cast<float>(r) * scale - 1;
+  }
+}
+
+void Overview::sample(const cv::Mat& bgr, int first_column, int column_count, float* cells) {
+  const auto width = static_cast<std::size_t>(column_count * cell_px_) * 3;
+  unsigned short* const sums = sums_.data();
+  const auto first_byte = static_cast<std::ptrdiff_t>(first_column) * cell_px_ * 3;
+  for (int row = 0; row < rows_; ++row, cells += static_cast<std::size_t>(column_count) * channels) {
+    std::fill_n(sums, width, static_cast<unsigned short>(0));
+    for (int i = 0; i < cell_px_; ++i) {
+      const auto* const pixels = bgr.ptr<std::uint8_t>(first_row_px_ + row * cell_px_ + i) + first_byte;
+      for (std::size_t k = 0; k < width; ++k)
+        sums[k] = static_cast<unsigned short>(sums[k] + pixels[k]);
+    }
+    switch (cell_px_) {
+      case 4:
+        average_row<4>(column_count, cells);
+        break;
+      case 5:
+        average_row<5>(column_count, cells);
+        break;
+      case 6:
+        average_row<6>(column_count, cells);
+        break;
+      case 7:
+        average_row<7>(column_count, cells);
+        break;
+      case 8:
+        average_row<8>(column_count, cells);
+        break;
+      default:
+        average_row<0>(column_count, cells);
+        break;
+    }
+    const std::size_t start = cell(row, first_column);
+    for (std::size_t column = 0; column < static_cast<std::size_t>(column_count); ++column) {
+      cells[column * channels + 3] = difference_[start + column];
+      cells[column * channels + 4] = beyond_edge_[start + column];
+    }
+  }
+}
+
+}  // namespace telehug

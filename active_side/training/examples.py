@@ -1,0 +1,133 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Reads what telehug-training-frames writes (example_writer.hpp tells how) and varies it."""
+import struct
+
+import numpy as np
+import torch
+from torch.nn import functional as F
+
+CANVAS_COLUMNS, CANVAS_ROWS = 128, 144
+PATCH_COLUMNS, PATCH_ROWS = 64, 80
+TIP_COLUMN, TIP_ROW = 32, 32  # where a patch is laid so that the tip is there
+EDGE_REACH_CELLS = 16
+
+
+def read(path):
+    """Overviews [(rig, cells, edge, tips)] and patches [(rig, numbers, pixels)] of a file."""
+    data = np.fromfile(path, dtype=np.uint8)
+    view = memoryview(data)
+    at, overviews, patches = 0, [], []
+    while at < len(data):
+        magic, rig, columns, rows, tips, count = struct.unpack_from("<IIHHHH", view, at)
+        assert magic == 0x54485542
+        at += 16
+        cells = data[at:at + columns * rows * 4].reshape(rows, columns, 4)
+        at += cells.size
+        edge = np.frombuffer(view, "<f4", columns, at)
+        at += 4 * columns
+        tip_rows = np.frombuffer(view, "<f4", 6 * tips, at).reshape(tips, 6)
+        at += 24 * tips
+        overviews.append((rig, cells, edge, tip_rows))
+        for _ in range(count):
+            numbers = np.frombuffer(view, "<f4", 8, at)
+            at += 32
+            size = CANVAS_COLUMNS * CANVAS_ROWS * 3
+            patches.append((rig, numbers, data[at:at + size].reshape(CANVAS_ROWS, CANVAS_COLUMNS, 3)))
+            at += size
+    return overviews, patches
+
+
+def vary_colours(x, rng):
+    """Other light, skin, screens and sensors. x: n, 3, rows, columns within 0..1."""
+    n = len(x)
+    draw = lambda low, high, *shape: torch.from_numpy(rng.uniform(low, high, shape)).float()
+    gamma = torch.exp(draw(-0.35, 0.35, n, 1, 1, 1))
+    gain = torch.exp(draw(-0.45, 0.35, n, 1, 1, 1) + draw(-0.18, 0.18, n, 3, 1, 1))
+    x = (x.clamp(1e-4, 1) ** gamma * gain).clamp(0, 1)
+    grey = x.mean(1, keepdim=True)
+    saturation = torch.where(draw(0, 1, n, 1, 1, 1) < 0.3, draw(0, 1.6, n, 1, 1, 1), draw(0.8, 1.2, n, 1, 1, 1))
+    x = (grey + saturation * (x - grey)).clamp(0, 1)
+    exchanged = torch.from_numpy(rng.uniform(size=n) < 0.12)
+    x[exchanged] = x[exchanged][:, rng.permutation(3)]
+    sd = draw(0, 0.03, n, 1, 1, 1) * (draw(0, 1, n, 1, 1, 1) < 0.6)
+    return (x + sd * torch.randn(x.shape)).clamp(0, 1)
+
+
+def overview_batch(overviews, picks, rng, vary, columns=160, rows=72):
+    """Inputs n, 5, rows, columns; targets and weights for every second column and row."""
+    n = len(picks)
+    cells = np.zeros((n, rows, columns, 4), np.uint8)
+    edge_distance = np.zeros((n, rows, columns), np.float32)
+    target = np.zeros((n, rows // 2, columns // 2), np.float32)
+    weight = np.ones((n, rows // 2, columns // 2), np.float32)
+    grid_column = 2 * np.arange(columns // 2) + 0.5
+    grid_row = 2 * np.arange(rows // 2) + 0.5
+    for i, pick in enumerate(picks):
+        _, whole, edge, tips = overviews[pick]
+        high, wide = whole.shape[:2]
+        left = rng.integers(0, wide - columns + 1) if wide > columns else 0
+        top = rng.integers(0, min(8, high - rows) + 1) if high > rows else 0
+        if len(tips) and wide > columns and rng.uniform() < 0.7:
+            left = int(np.clip(tips[rng.integers(len(tips)), 0] - rng.uniform(0, columns), 0, wide - columns))
+        index_rows = np.minimum(top + np.arange(rows), high - 1)
+        index_columns = np.minimum(left + np.arange(columns), wide - 1)
+        cells[i] = whole[index_rows][:, index_columns]
+        away = (index_rows[:, None] - edge[index_columns][None]) / EDGE_REACH_CELLS
+        edge_distance[i] = np.clip(away, -1, 1)
+        flip = vary and rng.uniform() < 0.5
+        for column, row, crosses, _, _, width in tips:
+            past = row - np.interp(column, np.arange(wide), edge)
+            column, row = column - left, row - top
+            if flip:
+                column = columns - 1 - column
+            d2 = (grid_column[None] - column) ** 2 + (grid_row[:, None] - row) ** 2
+            if crosses and past > 0.8:
+                target[i] = np.maximum(target[i], np.exp(-d2 / (2 * 1.8 ** 2)))
+            elif past > -1.2:
+                weight[i][d2 < 25] = 0
+        if flip:
+            cells[i] = cells[i][:, ::-1]
+            edge_distance[i] = edge_distance[i][:, ::-1]
+    x = torch.from_numpy(cells).permute(0, 3, 1, 2).float() / 255
+    colours, difference = x[:, :3], x[:, 3:]
+    if vary:
+        colours = vary_colours(colours, rng)
+        scale = torch.from_numpy(np.exp(rng.uniform(-0.4, 0.4, (n, 1, 1, 1)))).float()
+        difference = (difference * scale).clamp(0, 1)
+    x = torch.cat([2 * colours - 1, difference, torch.from_numpy(edge_distance)[:, None]], 1)
+    return x, torch.from_numpy(target), torch.from_numpy(weight)
+
+
+def tip_batch(patches, picks, rng, vary, jitter=12.0):
+    """Inputs n, 3, rows, columns; places; numbers (column and row of the tip in the patch, present, touches, hover_mm,
+    width)."""
+    n = len(picks)
+    pixels = np.stack([patches[k][2] for k in picks])
+    numbers = np.stack([patches[k][1] for k in picks]).astype(np.float32)
+    wide = rng.uniform(size=(n, 1)) < 0.6
+    shift = np.where(wide, rng.uniform(-jitter, jitter, (n, 2)), rng.uniform(-3, 3, (n, 2))).astype(np.float32)
+    present = numbers[:, 2] > 0.5
+    middle = np.where(present[:, None], numbers[:, :2], [CANVAS_COLUMNS / 2, CANVAS_ROWS / 2 - 8])
+    zoom = np.exp(rng.uniform(-0.13, 0.13, n)).astype(np.float32) if vary else np.ones(n, np.float32)
+    turn = rng.uniform(-0.09, 0.09, n).astype(np.float32) if vary else np.zeros(n, np.float32)
+    flip = np.where(rng.uniform(size=n) < 0.5, -1.0, 1.0).astype(np.float32) if vary else np.ones(n, np.float32)
+    # Patch pixel p is canvas pixel M (p - tip_at) + middle, so the tip lies at its place plus the shift. affine_grid
+    # counts in halves of the pictures from their middles.
+    cos, sin = np.cos(turn) / zoom, np.sin(turn) / zoom
+    matrix = np.stack([np.stack([cos * flip, -sin], 1), np.stack([sin * flip, cos], 1)], 1)
+    tip_at = np.array([TIP_COLUMN, TIP_ROW], np.float32) + shift
+    half_patch = np.array([PATCH_COLUMNS - 1, PATCH_ROWS - 1]) / 2
+    half_canvas = np.array([CANVAS_COLUMNS - 1, CANVAS_ROWS - 1]) / 2
+    centre = np.einsum("nij,nj->ni", matrix, half_patch - tip_at) + middle
+    theta = np.concatenate([matrix * half_patch / half_canvas[:, None], (centre / half_canvas - 1)[..., None]], 2)
+    grid = F.affine_grid(torch.from_numpy(theta.astype(np.float32)), (n, 3, PATCH_ROWS, PATCH_COLUMNS), True)
+    x = torch.from_numpy(pixels).permute(0, 3, 1, 2).float() / 255
+    x = F.grid_sample(x, grid, padding_mode="border", align_corners=True)
+    if vary:
+        x = vary_colours(x, rng)
+    place = numbers[:, 6:8].copy()
+    place[:, 0] *= flip
+    out = numbers[:, :6].copy()
+    out[:, :2] = tip_at
+    out[:, 5] *= zoom
+    return 2 * x - 1, torch.from_numpy(place), torch.from_numpy(out)
