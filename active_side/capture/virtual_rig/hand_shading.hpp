@@ -12,7 +12,6 @@ namespace telehug {
 
 // A hand as the camera sees it, and as it sees it mirrored in the screen: one entry for each vertex of the mesh.
 struct SeenHand {
-  std::vector<cv::Vec3f> places_mm;  // in the rig frame, flattened where the screen is
   std::vector<RasterVertex> direct;
   std::vector<RasterVertex> mirrored;
 };

@@ -48,6 +48,12 @@ ImagePoint PinholeCamera::project(const RigPoint& point) const {
   return {u0_px_ + x * scale, v0_px_ + y * scale};
 }
 
+PinholeProjection PinholeCamera::projection() const {
+  return {cv::Vec3f(position_mm_),   cv::Matx33f(camera_of_rig_),     static_cast<float>(focal_px_),
+          static_cast<float>(k1_),   static_cast<float>(largest_r2_), static_cast<float>(u0_px_),
+          static_cast<float>(v0_px_)};
+}
+
 // Newton's method on r_u (1 + k1 r_u^2) = r_d: six steps are exact to 1e-12 within a picture.
 RigPoint PinholeCamera::ray(double u_px, double v_px) const {
   const double x = (u_px - u0_px_) / focal_px_;

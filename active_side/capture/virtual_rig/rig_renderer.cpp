@@ -96,7 +96,7 @@ void RigRenderer::draw(const std::optional<FingerPlace>& finger, std::uint64_t n
 }
 
 void RigRenderer::draw(const std::vector<HandPose>& hands, std::uint64_t noise_index, cv::Mat& bgr) {
-  view_->coded.copyTo(coded_);
+  forget_before();
   drawn_.clear();
   seen_.resize(hands.size());
   view_->shadow.clear();
@@ -109,22 +109,36 @@ void RigRenderer::draw(const std::vector<HandPose>& hands, std::uint64_t noise_i
   }
   if (!hands.empty()) {
     add_shadows();
-    const cv::Rect picture({0, 0}, coded_.size());
-    const cv::Rect hand_box = raster(false, hand_image_, heights_);
-    const cv::Rect mirror_box = settings_.coat.mirror > 0 ? raster(true, mirror_image_, heights_) : cv::Rect();
-    if (!mirror_box.empty()) mirror_blur_.apply(mirror_image_, heights_);
-    const cv::Rect changed = hand_box | mirror_box;
-    if (!changed.empty()) compose(grown(changed, Development::margin_px, picture), hand_box, mirror_box);
+    raster(false, hand_);
+    mirror_image_.clear();
+    if (settings_.coat.mirror > 0) {
+      raster(true, mirror_image_);
+      mirror_blur_.apply(mirror_image_);
+    }
+    compose();
   }
   development_.expose(coded_, development_.exposure_of(coded_, noise_index), bgr);
   development_.add_noise(noise_index, bgr);
   development_.compress(bgr);
 }
 
-cv::Rect RigRenderer::raster(bool mirrored, cv::Mat& image, cv::Mat& height_mm) {
+// The picture without hands.
+void RigRenderer::forget_before() {
+  if (coded_view_ == view_) {
+    for (const cv::Rect& box : changed_)
+      view_->coded(box).copyTo(coded_(box));
+  } else {
+    view_->coded.copyTo(coded_);
+    coded_view_ = view_;
+  }
+  changed_.clear();
+}
+
+void RigRenderer::raster(bool mirrored, PictureLayer& layer) {
   const auto vertices = mirrored ? &SeenHand::mirrored : &SeenHand::direct;
   cv::Rect box = box_of(seen_, vertices, mirrored ? view_->screen_box : cv::Rect({0, 0}, coded_.size()));
-  if (box.empty()) return {};
+  layer.clear();
+  if (box.empty()) return;
   if (mirrored) box = grown(box, mirror_blur_.reach_px(), view_->screen_box);
   raster_.begin(box);
   triangles_.clear();
@@ -146,59 +160,82 @@ cv::Rect RigRenderer::raster(bool mirrored, cv::Mat& image, cv::Mat& height_mm) 
   raster_.find_outlines();
   for (const auto& [a, b, c] : triangles_)
     raster_.cover_outlines(*a, *b, *c);
-  raster_.finish(image, height_mm);
-  return box;
+  layer.take(raster_);
 }
 
 void RigRenderer::add_shadows() {
-  shadow_box_ = view_->shadow.finish(shadow_factor_);
-  for (int v = 0; v < shadow_box_.height; ++v) {
-    const float* factor = shadow_factor_.ptr<float>(v);
-    auto* row = coded_.ptr<cv::Vec3w>(v + shadow_box_.y) + shadow_box_.x;
-    for (int u = 0; u < shadow_box_.width; ++u) {
-      if (factor[u] > 0.999F) continue;
-      const int of_65536 = static_cast<int>(factor[u] * 65536);
-      for (int c = 0; c < 3; ++c)
-        row[u][c] = static_cast<std::uint16_t>((row[u][c] * of_65536) >> 16);
+  view_->shadow.finish();
+  shadow_factor_.resize(static_cast<std::size_t>(coded_.cols));
+  shares_.resize(3 * shadow_factor_.size());
+  for (int v = 0; v < coded_.rows; ++v) {
+    const cv::Range columns = view_->shadow.columns(v);
+    if (columns.empty()) continue;
+    changed_.emplace_back(columns.start, v, columns.size(), 1);
+    view_->shadow.factors(v, columns, shadow_factor_.data());
+    for (int u = 0; u < columns.size(); ++u) {
+      const auto share =
+          static_cast<std::uint16_t>(static_cast<int>(shadow_factor_[static_cast<std::size_t>(u)] * 65535));
+      std::fill_n(&shares_[static_cast<std::size_t>(3 * u)], 3, share);
     }
+    auto* row = coded_.ptr<std::uint16_t>(v) + 3 * static_cast<std::ptrdiff_t>(columns.start);
+    const std::uint16_t* share = shares_.data();
+    for (int i = 0; i < 3 * columns.size(); ++i)
+      row[i] = static_cast<std::uint16_t>((std::uint32_t{row[i]} * share[i]) >> 16);
   }
 }
 
-// Light of a box, from back to front, with what lies around it for the lens' blur.
-void RigRenderer::compose(const cv::Rect& box, const cv::Rect& hand_box, const cv::Rect& mirror_box) {
-  const cv::Rect around = grown(box, Development::margin_px, {{0, 0}, coded_.size()});
-  view_->light(around).copyTo(composed_);
-  const cv::Rect shaded = around & shadow_box_;
-  for (int v = shaded.y; v < shaded.y + shaded.height; ++v) {
-    const float* factor = shadow_factor_.ptr<float>(v - shadow_box_.y) - shadow_box_.x;
-    Light* row = composed_.ptr<Light>(v - around.y) - around.x;
-    for (int u = shaded.x; u < shaded.x + shaded.width; ++u)
-      row[u] *= factor[u] * factor[u];
+// Where hands or their mirror images are seen, in bands, since the box around them is mostly not covered by them.
+void RigRenderer::compose() {
+  constexpr int band_rows = 64;
+  const cv::Rect picture({0, 0}, coded_.size());
+  const cv::Rect all = grown(hand_.box | mirror_image_.box, Lens::margin_px, picture);
+  for (int v = all.y; v < all.y + all.height; v += band_rows) {
+    const int end = std::min(v + band_rows, all.y + all.height);
+    const cv::Range near(v - Lens::margin_px, end + Lens::margin_px);
+    const cv::Range columns = joined(hand_.columns_within(near), mirror_image_.columns_within(near));
+    if (columns.empty()) continue;
+    const cv::Rect band(columns.start - Lens::margin_px, v, columns.size() + 2 * Lens::margin_px, end - v);
+    compose(band & picture);
   }
-  for (int v = mirror_box.y; v < mirror_box.y + mirror_box.height; ++v) {
-    const auto* image = mirror_image_.ptr<cv::Vec4f>(v - mirror_box.y) - mirror_box.x;
-    const float* reflectance = view_->scene.reflectance.ptr<float>(v);
-    const Light* behind = view_->scene.mirrored.ptr<Light>(v);
-    Light* row = composed_.ptr<Light>(v - around.y) - around.x;
-    for (int u = mirror_box.x; u < mirror_box.x + mirror_box.width; ++u) {
-      const cv::Vec4f& seen = image[u];
-      if (seen[3] <= 0) continue;
-      for (int c = 0; c < 3; ++c)
-        row[u][c] += reflectance[u] * (seen[c] - seen[3] * behind[u][c]);
+}
+
+void RigRenderer::compose(const cv::Rect& box) {
+  const cv::Rect around = grown(box, Lens::margin_px, {{0, 0}, coded_.size()});
+  development_.lens().code(around, box, coded_, [&](int v, Light* row) {
+    compose_row(v, {around.x, around.x + around.width}, row - around.x);
+  });
+  changed_.push_back(box);
+}
+
+// Light from back to front.
+void RigRenderer::compose_row(int v, const cv::Range& columns, Light* row) {
+  std::copy_n(view_->light.ptr<Light>(v) + columns.start, columns.size(), row + columns.start);
+  const cv::Range shaded = view_->shadow.columns(v) & columns;
+  if (!shaded.empty()) {
+    view_->shadow.factors(v, shaded, shadow_factor_.data());
+    for (int u = shaded.start; u < shaded.end; ++u) {
+      const float factor = shadow_factor_[static_cast<std::size_t>(u - shaded.start)];
+      row[u] *= factor * factor;
     }
   }
-  for (int v = hand_box.y; v < hand_box.y + hand_box.height; ++v) {
-    const auto* image = hand_image_.ptr<cv::Vec4f>(v - hand_box.y) - hand_box.x;
-    Light* row = composed_.ptr<Light>(v - around.y) - around.x;
-    for (int u = hand_box.x; u < hand_box.x + hand_box.width; ++u) {
-      const cv::Vec4f& seen = image[u];
-      if (seen[3] <= 0) continue;
-      for (int c = 0; c < 3; ++c)
-        row[u][c] = row[u][c] * (1 - seen[3]) + seen[c];
+  const auto pixels = [&](const PictureLayer& layer, auto&& step) {
+    const cv::Range covered = layer.columns_within({v, v + 1}) & columns;
+    if (covered.empty()) return;
+    const auto* image = layer.image.ptr<cv::Vec4f>(v - layer.box.y) - layer.box.x;
+    for (int u = covered.start; u < covered.end; ++u) {
+      if (image[u][3] > 0) step(u, image[u]);
     }
-  }
-  development_.code(composed_, coded_part_);
-  coded_part_({box.x - around.x, box.y - around.y, box.width, box.height}).copyTo(coded_(box));
+  };
+  const float* reflectance = view_->scene.reflectance.ptr<float>(v);
+  const Light* behind = view_->scene.mirrored.ptr<Light>(v);
+  pixels(mirror_image_, [&](int u, const cv::Vec4f& image) {
+    for (int c = 0; c < 3; ++c)
+      row[u][c] += reflectance[u] * (image[c] - image[3] * behind[u][c]);
+  });
+  pixels(hand_, [&](int u, const cv::Vec4f& image) {
+    for (int c = 0; c < 3; ++c)
+      row[u][c] = row[u][c] * (1 - image[3]) + image[c];
+  });
 }
 
 }  // namespace telehug

@@ -13,6 +13,7 @@
 #include "capture/virtual_rig/hand_shading.hpp"
 #include "capture/virtual_rig/mesh_raster.hpp"
 #include "capture/virtual_rig/mirror_blur.hpp"
+#include "capture/virtual_rig/picture_layer.hpp"
 #include "capture/virtual_rig/pinhole_camera.hpp"
 #include "capture/virtual_rig/rig_view.hpp"
 #include "capture/virtual_rig/settings.hpp"
@@ -49,9 +50,12 @@ class RigRenderer {
   };
 
   const HandShape& shape_of(const HandPose& pose);
-  [[nodiscard]] cv::Rect raster(bool mirrored, cv::Mat& image, cv::Mat& height_mm);
+  void forget_before();
+  void raster(bool mirrored, PictureLayer& layer);
   void add_shadows();
-  void compose(const cv::Rect& box, const cv::Rect& hand_box, const cv::Rect& mirror_box);
+  void compose();
+  void compose(const cv::Rect& box);
+  void compose_row(int v, const cv::Range& columns, Light* row);
 
   VirtualRigSettings settings_;
   Development development_;
@@ -60,18 +64,17 @@ class RigRenderer {
   std::shared_ptr<RigView> view_;
   std::vector<std::shared_ptr<const KnownShape>> shapes_;  // the newest last
 
-  // Of the picture that is being drawn.
+  // Of the picture that is being drawn, or was drawn before.
   cv::Mat coded_;
+  std::shared_ptr<RigView> coded_view_;  // `coded_` is its picture but for these boxes:
+  std::vector<cv::Rect> changed_;
   std::vector<std::shared_ptr<const KnownShape>> drawn_;
   std::vector<SeenHand> seen_;
   std::vector<std::array<const RasterVertex*, 3>> triangles_;  // those that face the camera
-  cv::Mat shadow_factor_;
-  cv::Rect shadow_box_;
-  cv::Mat hand_image_;
-  cv::Mat mirror_image_;
-  cv::Mat heights_;
-  cv::Mat composed_;
-  cv::Mat coded_part_;
+  std::vector<float> shadow_factor_;                           // of a row
+  std::vector<std::uint16_t> shares_;  // of the light that is left, for a row's blue, green and red values
+  PictureLayer hand_;
+  PictureLayer mirror_image_;
 };
 
 }  // namespace telehug

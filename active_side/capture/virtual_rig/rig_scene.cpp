@@ -14,7 +14,7 @@ namespace {
 const cv::Vec3f upwards{0, -1, 0};
 const cv::Vec3f to_user{0, 0, 1};
 constexpr double content_step_mm = 0.5;  // finer than the camera sees it
-constexpr double light_step_mm = 10;
+constexpr float light_step_mm = 10;
 
 struct Sample {
   Light own;
@@ -186,7 +186,9 @@ class Canvas {
 
 // Divides by the reflectance what came multiplied with it, and blurs it.
 cv::Mat blurred_mirror(const Canvas& canvas, const VirtualRigSettings& settings) {
-  cv::Mat image(canvas.own.size(), CV_32FC4);
+  PictureLayer layer{cv::Rect({0, 0}, canvas.own.size()), cv::Mat(canvas.own.size(), CV_32FC4), canvas.height, {}};
+  layer.columns.assign(static_cast<std::size_t>(canvas.own.rows), {0, canvas.own.cols});
+  cv::Mat& image = layer.image;
   for (int v = 0; v < image.rows; ++v) {
     for (int u = 0; u < image.cols; ++u) {
       const float reflectance = canvas.reflectance.at<float>(v, u);
@@ -194,8 +196,7 @@ cv::Mat blurred_mirror(const Canvas& canvas, const VirtualRigSettings& settings)
       image.at<cv::Vec4f>(v, u) = {light[0], light[1], light[2], reflectance > 0 ? 1.0F : 0.0F};
     }
   }
-  MirrorBlur(settings.coat.roughness_deg, settings.focal_px, settings.camera.position_mm[2])
-      .apply(image, canvas.height);
+  MirrorBlur(settings.coat.roughness_deg, settings.focal_px, settings.camera.position_mm[2]).apply(layer);
   cv::Mat mirrored(image.size(), CV_32FC3);
   for (int v = 0; v < image.rows; ++v) {
     for (int u = 0; u < image.cols; ++u) {
@@ -217,7 +218,7 @@ float fresnel(float cosine) {
   return (across * across + along * along) / 2;
 }
 
-Light RigScene::screen_light(double x_mm, double y_mm) const {
+Light RigScene::screen_light(float x_mm, float y_mm) const {
   const int column = std::clamp(static_cast<int>(x_mm / light_step_mm), 0, content.cols - 1);
   const int row = std::clamp(static_cast<int>(y_mm / light_step_mm), 0, content.rows - 1);
   return content.at<Light>(row, column);
@@ -233,8 +234,8 @@ RigScene render_scene(const VirtualRigSettings& settings, const PinholeCamera& c
   scene.reflectance = canvas.reflectance;
   scene.surface = canvas.surfaces & 15;
   scene.content = as_light(shown,
-                           {std::max(1, cvRound(settings.screen.width_mm / light_step_mm)),
-                            std::max(1, cvRound(settings.screen.height_mm / light_step_mm))},
+                           {std::max(1, cvRound(settings.screen.width_mm / double{light_step_mm})),
+                            std::max(1, cvRound(settings.screen.height_mm / double{light_step_mm}))},
                            settings.screen_luminance);
   cv::blur(scene.content, scene.content, {3, 3});
   return scene;

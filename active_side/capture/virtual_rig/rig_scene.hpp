@@ -19,7 +19,7 @@ struct RigScene {
   cv::Mat content;      // CV_32FC3, light of the screen's picture at 1 px per 10 mm: what falls onto fingers before it
 
   // Light that the screen sends out around a place, mean over some 20 mm.
-  [[nodiscard]] Light screen_light(double x_mm, double y_mm) const;
+  [[nodiscard]] Light screen_light(float x_mm, float y_mm) const;
 };
 
 // `shown` is on the screen (CV_8UC3, any size, stretched over it).
