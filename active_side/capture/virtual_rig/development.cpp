@@ -48,12 +48,6 @@ Development::Development(const VirtualRigSettings& settings)
   noise.convertTo(darker_, CV_8U, -scale);
 }
 
-void Development::code(const cv::Mat& light, cv::Mat& coded) {
-  coded.create(light.size(), CV_16UC3);
-  const cv::Rect all({0, 0}, light.size());
-  lens_.code(all, all, coded, [&](int v, Light* row) { std::copy_n(light.ptr<Light>(v), light.cols, row); });
-}
-
 void Development::expose(const cv::Mat& coded, double exposure, cv::Mat& bgr) const {
   coded.convertTo(bgr, CV_8U, std::sqrt(exposure) / code_scale);
 }

@@ -16,8 +16,6 @@ class Development {
  public:
   explicit Development(const VirtualRigSettings& settings);
 
-  // CV_32FC3 to CV_16UC3 of the same size; what lies beyond the borders is taken to be as they are.
-  void code(const cv::Mat& light, cv::Mat& coded);
   [[nodiscard]] Lens& lens() noexcept { return lens_; }
 
   // CV_16UC3 to CV_8UC3 with this exposure; no noise.

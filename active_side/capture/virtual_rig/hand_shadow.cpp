@@ -124,29 +124,34 @@ cv::Range HandShadow::columns(int v) const {
   const cv::Range both = joined(columns_[static_cast<std::size_t>(above)],
                                 columns_[static_cast<std::size_t>(std::min(above + 1, rows - 1))]);
   if (both.empty()) return {};
-  return {std::max(0, (both.start - 1) * reduced), std::min(size_.width, (both.end + 1) * reduced)};
+  return {std::max(0, both.start - 1) * reduced, std::min(size_.width / reduced, both.end + 1) * reduced};
 }
 
-void HandShadow::factors(int v, const cv::Range& columns, float* factor) const {
+void HandShadow::factors(int v, float* factor) const {
+  const cv::Range shaded = columns(v);
   const float down =
       std::clamp((static_cast<float>(v) + 0.5F) / reduced - 0.5F, 0.0F, static_cast<float>(factor_.rows - 1));
   const int row = std::min(static_cast<int>(down), factor_.rows - 2);
   const float* above = factor_.ptr<float>(row);
   const float* below = factor_.ptr<float>(row + 1);
   const float of_below = down - static_cast<float>(row);
-  const int first = columns.start / reduced - 1;  // one more at either side for the mixing
-  const int end = (columns.end - 1) / reduced + 2;
+  const int first = shaded.start / reduced - 1;  // one more at either side for the mixing
+  const int end = (shaded.end - 1) / reduced + 2;
   std::vector<float>& between = between_;
   between.resize(static_cast<std::size_t>(end - first));
   for (int i = first; i < end; ++i) {
     const int column = std::clamp(i, 0, factor_.cols - 1);
     between[static_cast<std::size_t>(i - first)] = above[column] + (below[column] - above[column]) * of_below;
   }
-  for (int u = columns.start; u < columns.end; ++u) {
-    const float* here = &between[static_cast<std::size_t>(u / reduced - first)];
-    const float from_middle = (static_cast<float>(u % reduced) + 0.5F) / reduced - 0.5F;
-    factor[u - columns.start] =
-        from_middle < 0 ? here[0] + (here[0] - here[-1]) * from_middle : here[0] + (here[1] - here[0]) * from_middle;
+  static_assert(reduced == 4);
+  for (int i = 0; i < shaded.size() / reduced; ++i) {  // columns() are multiples of four
+    const float* here = &between[static_cast<std::size_t>(i + shaded.start / reduced - first)];
+    const float before = here[0] - here[-1];
+    const float behind = here[1] - here[0];
+    factor[4 * i] = here[0] - 0.375F * before;
+    factor[4 * i + 1] = here[0] - 0.125F * before;
+    factor[4 * i + 2] = here[0] + 0.125F * behind;
+    factor[4 * i + 3] = here[0] + 0.375F * behind;
   }
 }
 

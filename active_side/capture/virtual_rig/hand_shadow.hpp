@@ -22,10 +22,10 @@ class HandShadow {
   void add(const std::vector<Limb>& limbs, const cv::Vec3f& origin, const PinholeCamera& camera);
 
   // After the last hand. Then, for each row of the picture: where it may be shaded, and what coded light, the root of
-  // linear light, is multiplied with there.
+  // linear light, is multiplied with in all these columns.
   void finish();
   [[nodiscard]] cv::Range columns(int v) const;
-  void factors(int v, const cv::Range& columns, float* factor) const;
+  void factors(int v, float* factor) const;
 
  private:
   struct Plane {

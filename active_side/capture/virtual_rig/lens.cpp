@@ -14,6 +14,19 @@ constexpr float code_scale = 16 * 255;
 
 }  // namespace
 
+void root_coded(const float* light, int count, std::uint16_t* coded) {
+  for (int i = 0; i < count; ++i)
+    coded[i] =
+        static_cast<std::uint16_t>(static_cast<int>(std::min(std::sqrt(light[i]) * code_scale + 0.5F, 65535.0F)));
+}
+
+void light_of(const std::uint16_t* coded, int count, float* light) {
+  for (int i = 0; i < count; ++i) {
+    const float root = static_cast<float>(coded[i]) * (1 / code_scale);
+    light[i] = root * root;
+  }
+}
+
 RowBlur::RowBlur(double sd_px, int reach_px) : reach_px_(reach_px) {
   double sum = 0;
   std::vector<double> bell;

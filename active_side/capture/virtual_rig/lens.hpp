@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <opencv2/core/mat.hpp>
 #include <vector>
 
@@ -41,6 +42,10 @@ class RowBlur {
   std::vector<float> ring_;   // the last 2 reach_px_ + 1 rows, blurred along themselves
   std::vector<float> mixed_;  // a row of the result
 };
+
+// Light as 16 * 255 times its root, which has room for what is too bright for pictures of 8 bits; and back.
+void root_coded(const float* light, int count, std::uint16_t* coded);
+void light_of(const std::uint16_t* coded, int count, float* light);
 
 // From light to coded pictures (see Development): lens blur, tone curve, and the sharpening that webcams do.
 class Lens {

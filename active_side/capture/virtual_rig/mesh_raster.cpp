@@ -9,6 +9,12 @@
 namespace telehug {
 namespace {
 
+// Without a call of the library, which SSE2 has no instruction for.
+int ceiled(float x) {
+  const int towards_zero = static_cast<int>(x);
+  return towards_zero + (static_cast<float>(towards_zero) < x ? 1 : 0);
+}
+
 // A triangle's edges from above to below; shared edges cross a row at the same place in both of their triangles.
 class Edges {
  public:
@@ -53,6 +59,12 @@ class Edges {
 
 }  // namespace
 
+cv::Range joined(const cv::Range& a, const cv::Range& b) {
+  if (a.empty()) return b;
+  if (b.empty()) return a;
+  return {std::min(a.start, b.start), std::max(a.end, b.end)};
+}
+
 MeshRaster::MeshRaster(cv::Size size)
     : size_(size),
       blocks_across_((size.width + block_px - 1) / block_px),
@@ -63,6 +75,13 @@ MeshRaster::MeshRaster(cv::Size size)
       drawn_(static_cast<std::size_t>(drawn_stride_ * size.height), 0),
       depth_mm_(static_cast<std::size_t>(size.area()), nothing_mm),
       pixels_(static_cast<std::size_t>(size.area())) {}
+
+cv::Range MeshRaster::columns_within(const cv::Range& v) const {
+  cv::Range all(0, 0);
+  for (int row = std::max(v.start, box_.y); row < std::min(v.end, box_.y + box_.height); ++row)
+    all = joined(all, columns(row));
+  return all;
+}
 
 void MeshRaster::begin(const cv::Rect& box) {
   box_ = box;
@@ -83,8 +102,8 @@ void MeshRaster::draw(const RasterVertex& a, const RasterVertex& b, const Raster
   const float area = (b.u_px - a.u_px) * (c.v_px - a.v_px) - (c.u_px - a.u_px) * (b.v_px - a.v_px);
   if (area == 0 || beside_box(a, b, c)) return;
   const Edges edges(a, b, c);
-  const int first = static_cast<int>(std::ceil(std::max(edges.top(), static_cast<float>(box_.y))));
-  const int end = static_cast<int>(std::ceil(std::min(edges.bottom(), static_cast<float>(box_.y + box_.height))));
+  const int first = ceiled(std::max(edges.top(), static_cast<float>(box_.y)));
+  const int end = ceiled(std::min(edges.bottom(), static_cast<float>(box_.y + box_.height)));
   if (first >= end) return;
 
   // Light, height and depth are linear in u and v.
@@ -104,8 +123,8 @@ void MeshRaster::draw(const RasterVertex& a, const RasterVertex& b, const Raster
   for (int row = first; row < end; ++row) {
     const auto v = static_cast<float>(row);
     const Edges::Span span = edges.at(v);
-    const int from = static_cast<int>(std::ceil(std::max(span.from, left)));
-    const int to = static_cast<int>(std::ceil(std::min(span.to, right)));
+    const int from = ceiled(std::max(span.from, left));
+    const int to = ceiled(std::min(span.to, right));
     if (from >= to) continue;
     const float du = static_cast<float>(from) - a.u_px;
     const float dv = v - a.v_px;
@@ -143,7 +162,8 @@ int MeshRaster::coverage_of_block(int block_row, int block_column) const {
   return any == 0 ? 0 : ~all == 0 ? 1 : 2;
 }
 
-void MeshRaster::find_outlines() {
+void MeshRaster::find_outlines(bool exactly) {
+  exactly_ = exactly;
   const int first_column = box_.x / block_px;
   const int last_column = (box_.x + box_.width - 1) / block_px;
   for (int row = box_.y / block_px; row <= (box_.y + box_.height - 1) / block_px; ++row) {
@@ -158,9 +178,17 @@ void MeshRaster::find_outlines() {
       within = {within.empty() ? from : within.start, to};
       if (coverage == 1) continue;
       for (int v = std::max(box_.y, row * block_px); v < std::min(box_.y + box_.height, (row + 1) * block_px); ++v)
-        std::fill_n(covered_.begin() + static_cast<std::ptrdiff_t>(v) * size_.width + from, to - from, 0U);
+        cover_drawn(v, from, to);
     }
   }
+}
+
+// What cover_outlines() begins with.
+void MeshRaster::cover_drawn(int v, int from, int to) {
+  std::uint32_t* covered = covered_.data() + static_cast<std::ptrdiff_t>(v) * size_.width;
+  const std::uint8_t* drawn = drawn_.data() + static_cast<std::ptrdiff_t>(v) * drawn_stride_;
+  for (int u = from; u < to; ++u)
+    covered[u] = !exactly_ && drawn[u] != 0 ? ~0U : 0U;
 }
 
 bool MeshRaster::near_outline(const RasterVertex& a, const RasterVertex& b, const RasterVertex& c) const {
@@ -182,13 +210,13 @@ bool MeshRaster::near_outline(const RasterVertex& a, const RasterVertex& b, cons
 }
 
 void MeshRaster::cover_outlines(const RasterVertex& a, const RasterVertex& b, const RasterVertex& c) {
-  if (!near_outline(a, b, c)) return;
+  if (!exactly_ || !near_outline(a, b, c)) return;
   // Line k of four a row lies at v = (k - 1.5) / 4 of it.
   const Edges edges(a, b, c);
   const auto line = [&](float v) {
     const auto low = static_cast<float>(box_.y);
     const auto high = static_cast<float>(box_.y + box_.height);
-    return static_cast<int>(std::ceil(std::clamp(v + 0.5F, low, high) * 4 - 0.5F));
+    return ceiled(std::clamp(v + 0.5F, low, high) * 4 - 0.5F);
   };
   for (int k = line(edges.top()); k < line(edges.bottom()); ++k) {
     const Edges::Span span = edges.at((static_cast<float>(k) + 0.5F) / 4 - 0.5F);
@@ -201,9 +229,7 @@ void MeshRaster::cover(int row, int part, float from_px, float to_px) {
   const auto left = static_cast<float>(box_.x * 8);
   const auto right = static_cast<float>((box_.x + box_.width) * 8);
   // Point k of a line lies at u = (k + 0.5) / 8 - 0.5.
-  const auto point = [&](float u) {
-    return static_cast<int>(std::ceil(std::clamp((u + 0.5F) * 8 - 0.5F, left, right)));
-  };
+  const auto point = [&](float u) { return ceiled(std::clamp((u + 0.5F) * 8 - 0.5F, left, right)); };
   const int to = point(to_px);
   for (int k = point(from_px); k < to;) {
     const int pixel = k >> 3;

@@ -20,6 +20,9 @@ struct RasterVertex {
   float height_mm = 0;  // above the screen
 };
 
+// The smallest range that holds both; empty ones hold nothing.
+cv::Range joined(const cv::Range& a, const cv::Range& b);
+
 // Draws small triangles with a depth buffer. How much of a pixel they cover is found on 8 x 4 points of it, so that
 // outlines are true to about 0.1 pixels; colour is found in its middle, and beside an outline taken from the
 // neighbours.
@@ -28,21 +31,23 @@ class MeshRaster {
   explicit MeshRaster(cv::Size size);
 
   // Begins an empty box. Then all triangles are drawn, find_outlines() is called, and all triangles are given to
-  // cover_outlines().
+  // cover_outlines(). If not `exactly`, pixels are covered whose middle is.
   void begin(const cv::Rect& box);
   void draw(const RasterVertex& a, const RasterVertex& b, const RasterVertex& c);
-  void find_outlines();
+  void find_outlines(bool exactly = true);
   void cover_outlines(const RasterVertex& a, const RasterVertex& b, const RasterVertex& c);
 
   [[nodiscard]] const cv::Rect& box() const noexcept { return box_; }
 
   // All columns of a row of the box where something was drawn, and some more.
   [[nodiscard]] cv::Range columns(int v) const { return columns_[static_cast<std::size_t>(v / block_px)]; }
+  [[nodiscard]] cv::Range columns_within(const cv::Range& v) const;
 
-  // Calls step(u, light, coverage, height_mm) for each pixel of a row of the box that is covered.
+  // Calls step(u, light, coverage, height_mm) for each pixel of a row that is covered.
   template <typename Step>
-  void row(int v, Step&& step) const {
-    const cv::Range& within = columns(v);
+  void row(int v, const cv::Range& of_columns, Step&& step) const {
+    if (v < box_.y || v >= box_.y + box_.height) return;
+    const cv::Range within = columns(v) & of_columns;
     const std::size_t line = static_cast<std::size_t>(v) * static_cast<std::size_t>(size_.width);
     const std::uint8_t* coverage = &block_coverage_[static_cast<std::size_t>(v / block_px * blocks_across_)];
     for (int u = within.start; u < within.end;) {
@@ -74,11 +79,13 @@ class MeshRaster {
   [[nodiscard]] bool beside_box(const RasterVertex& a, const RasterVertex& b, const RasterVertex& c) const;
   [[nodiscard]] int coverage_of_block(int block_row, int block_column) const;
   [[nodiscard]] bool near_outline(const RasterVertex& a, const RasterVertex& b, const RasterVertex& c) const;
+  void cover_drawn(int v, int from, int to);
   void cover(int row, int part, float from, float to);
   bool take_from_neighbours(int u, int v, Pixel& pixel) const;
 
   cv::Size size_;
   cv::Rect box_;
+  bool exactly_ = true;
   int blocks_across_;
   std::vector<std::uint8_t> block_coverage_;  // of blocks of 4 x 4 pixels: 0 none, 1 full, 2 crossed by an outline
   std::vector<cv::Range> columns_;            // of rows of blocks

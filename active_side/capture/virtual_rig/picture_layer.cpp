@@ -5,12 +5,6 @@
 
 namespace telehug {
 
-cv::Range joined(const cv::Range& a, const cv::Range& b) {
-  if (a.empty()) return b;
-  if (b.empty()) return a;
-  return {std::min(a.start, b.start), std::max(a.end, b.end)};
-}
-
 void PictureLayer::clear() {
   box = {};
   columns.clear();
@@ -28,7 +22,7 @@ void PictureLayer::take(const MeshRaster& raster) {
     float* height = height_mm.ptr<float>(row) - box.x;
     const cv::Range drawn = raster.columns(row + box.y);
     columns[static_cast<std::size_t>(row)] = {drawn.start - box.x, drawn.end - box.x};
-    raster.row(row + box.y, [&](int u, const Light& light, float coverage, float pixel_height_mm) {
+    raster.row(row + box.y, drawn, [&](int u, const Light& light, float coverage, float pixel_height_mm) {
       pixel[u] = {light[0] * coverage, light[1] * coverage, light[2] * coverage, coverage};
       height[u] = pixel_height_mm;
     });

@@ -26,7 +26,4 @@ struct PictureLayer {
   [[nodiscard]] cv::Range columns_within(const cv::Range& v) const;
 };
 
-// The smallest range that holds both; empty ones hold nothing.
-cv::Range joined(const cv::Range& a, const cv::Range& b);
-
 }  // namespace telehug

@@ -10,6 +10,7 @@ namespace telehug {
 namespace {
 
 constexpr std::size_t shapes_kept = 4;
+constexpr int rough_px = 30;  // mirror images blurred by more have no outlines that could be seen
 
 bool same_looks(const HandLooks& a, const HandLooks& b) {
   return a.left == b.left && a.skin_tone == b.skin_tone && a.finger_width_mm == b.finger_width_mm &&
@@ -109,12 +110,12 @@ void RigRenderer::draw(const std::vector<HandPose>& hands, std::uint64_t noise_i
   }
   if (!hands.empty()) {
     add_shadows();
-    raster(false, hand_);
     mirror_image_.clear();
-    if (settings_.coat.mirror > 0) {
-      raster(true, mirror_image_);
+    if (settings_.coat.mirror > 0 && raster(true)) {
+      mirror_image_.take(raster_);
       mirror_blur_.apply(mirror_image_);
     }
+    (void)raster(false);
     compose();
   }
   development_.expose(coded_, development_.exposure_of(coded_, noise_index), bgr);
@@ -134,13 +135,13 @@ void RigRenderer::forget_before() {
   changed_.clear();
 }
 
-void RigRenderer::raster(bool mirrored, PictureLayer& layer) {
+// False if nothing of it is in the picture.
+bool RigRenderer::raster(bool mirrored) {
   const auto vertices = mirrored ? &SeenHand::mirrored : &SeenHand::direct;
   cv::Rect box = box_of(seen_, vertices, mirrored ? view_->screen_box : cv::Rect({0, 0}, coded_.size()));
-  layer.clear();
-  if (box.empty()) return;
-  if (mirrored) box = grown(box, mirror_blur_.reach_px(), view_->screen_box);
+  if (mirrored && !box.empty()) box = grown(box, mirror_blur_.reach_px(), view_->screen_box);
   raster_.begin(box);
+  if (box.empty()) return false;
   triangles_.clear();
   for (std::size_t i = 0; i < seen_.size(); ++i) {
     const std::vector<RasterVertex>& seen = seen_[i].*vertices;
@@ -157,10 +158,10 @@ void RigRenderer::raster(bool mirrored, PictureLayer& layer) {
       raster_.draw(a, b, c);
     }
   }
-  raster_.find_outlines();
+  raster_.find_outlines(!mirrored || mirror_blur_.reach_px() < rough_px);
   for (const auto& [a, b, c] : triangles_)
     raster_.cover_outlines(*a, *b, *c);
-  layer.take(raster_);
+  return true;
 }
 
 void RigRenderer::add_shadows() {
@@ -171,7 +172,7 @@ void RigRenderer::add_shadows() {
     const cv::Range columns = view_->shadow.columns(v);
     if (columns.empty()) continue;
     changed_.emplace_back(columns.start, v, columns.size(), 1);
-    view_->shadow.factors(v, columns, shadow_factor_.data());
+    view_->shadow.factors(v, shadow_factor_.data());
     for (int u = 0; u < columns.size(); ++u) {
       const auto share =
           static_cast<std::uint16_t>(static_cast<int>(shadow_factor_[static_cast<std::size_t>(u)] * 65535));
@@ -188,11 +189,11 @@ void RigRenderer::add_shadows() {
 void RigRenderer::compose() {
   constexpr int band_rows = 64;
   const cv::Rect picture({0, 0}, coded_.size());
-  const cv::Rect all = grown(hand_.box | mirror_image_.box, Lens::margin_px, picture);
+  const cv::Rect all = grown(raster_.box() | mirror_image_.box, Lens::margin_px, picture);
   for (int v = all.y; v < all.y + all.height; v += band_rows) {
     const int end = std::min(v + band_rows, all.y + all.height);
     const cv::Range near(v - Lens::margin_px, end + Lens::margin_px);
-    const cv::Range columns = joined(hand_.columns_within(near), mirror_image_.columns_within(near));
+    const cv::Range columns = joined(raster_.columns_within(near), mirror_image_.columns_within(near));
     if (columns.empty()) continue;
     const cv::Rect band(columns.start - Lens::margin_px, v, columns.size() + 2 * Lens::margin_px, end - v);
     compose(band & picture);
@@ -209,32 +210,27 @@ void RigRenderer::compose(const cv::Rect& box) {
 
 // Light from back to front.
 void RigRenderer::compose_row(int v, const cv::Range& columns, Light* row) {
-  std::copy_n(view_->light.ptr<Light>(v) + columns.start, columns.size(), row + columns.start);
-  const cv::Range shaded = view_->shadow.columns(v) & columns;
+  light_of(view_->light.ptr<std::uint16_t>(v) + 3 * static_cast<std::ptrdiff_t>(columns.start), 3 * columns.size(),
+           row[columns.start].val);
+  const cv::Range may_be_shaded = view_->shadow.columns(v);
+  const cv::Range shaded = may_be_shaded & columns;
   if (!shaded.empty()) {
-    view_->shadow.factors(v, shaded, shadow_factor_.data());
+    view_->shadow.factors(v, shadow_factor_.data());
     for (int u = shaded.start; u < shaded.end; ++u) {
-      const float factor = shadow_factor_[static_cast<std::size_t>(u - shaded.start)];
+      const float factor = shadow_factor_[static_cast<std::size_t>(u - may_be_shaded.start)];
       row[u] *= factor * factor;
     }
   }
-  const auto pixels = [&](const PictureLayer& layer, auto&& step) {
-    const cv::Range covered = layer.columns_within({v, v + 1}) & columns;
-    if (covered.empty()) return;
-    const auto* image = layer.image.ptr<cv::Vec4f>(v - layer.box.y) - layer.box.x;
-    for (int u = covered.start; u < covered.end; ++u) {
-      if (image[u][3] > 0) step(u, image[u]);
-    }
-  };
   const float* reflectance = view_->scene.reflectance.ptr<float>(v);
   const Light* behind = view_->scene.mirrored.ptr<Light>(v);
-  pixels(mirror_image_, [&](int u, const cv::Vec4f& image) {
+  const cv::Range mirrored = mirror_image_.columns_within({v, v + 1}) & columns;
+  const auto* image = mirror_image_.image.ptr<cv::Vec4f>(v - mirror_image_.box.y) - mirror_image_.box.x;
+  for (int u = mirrored.start; u < mirrored.end; ++u) {
     for (int c = 0; c < 3; ++c)
-      row[u][c] += reflectance[u] * (image[c] - image[3] * behind[u][c]);
-  });
-  pixels(hand_, [&](int u, const cv::Vec4f& image) {
-    for (int c = 0; c < 3; ++c)
-      row[u][c] = row[u][c] * (1 - image[3]) + image[c];
+      row[u][c] += reflectance[u] * (image[u][c] - image[u][3] * behind[u][c]);
+  }
+  raster_.row(v, columns, [&](int u, const Light& light, float coverage, float /*height_mm*/) {
+    row[u] = row[u] * (1 - coverage) + light * coverage;
   });
 }
 

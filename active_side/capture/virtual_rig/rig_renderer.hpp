@@ -51,7 +51,7 @@ class RigRenderer {
 
   const HandShape& shape_of(const HandPose& pose);
   void forget_before();
-  void raster(bool mirrored, PictureLayer& layer);
+  bool raster(bool mirrored);
   void add_shadows();
   void compose();
   void compose(const cv::Rect& box);
@@ -73,7 +73,6 @@ class RigRenderer {
   std::vector<std::array<const RasterVertex*, 3>> triangles_;  // those that face the camera
   std::vector<float> shadow_factor_;                           // of a row
   std::vector<std::uint16_t> shares_;  // of the light that is left, for a row's blue, green and red values
-  PictureLayer hand_;
   PictureLayer mirror_image_;
 };
 

@@ -21,8 +21,8 @@ struct RigView {
   RoomLighting lighting;
   RigScene scene;
   cv::Rect screen_box;  // the part of the picture where the screen is
-  cv::Mat light;        // CV_32FC3: the scene with what the screen mirrors
-  cv::Mat coded;        // the same, coded (see Development)
+  cv::Mat light;        // CV_16UC3: the scene with what the screen mirrors, before the lens, as root_coded() has it
+  cv::Mat coded;        // the same after the lens (see Development)
   HandShadow shadow;
 };
 
