@@ -28,8 +28,8 @@ Light reflection(const MeshVertex& vertex, const cv::Vec3f& normal, const cv::Ve
 
 }  // namespace
 
-void light_hand(const HandShape& shape, const FingerPlace& finger, const RoomLighting& lighting, const RigScene& scene,
-                const PinholeCamera& camera, SeenHand& seen) {
+void light_hand(const HandShape& shape, const FingerPlace& finger, const RoomLighting& lighting,
+                const ShownPicture& shown, const PinholeCamera& camera, SeenHand& seen) {
   const cv::Vec3f origin = shape.place_for(finger);
   const PinholeProjection project = camera.projection();
   const Light lamp = lighting.on(lighting.towards());
@@ -47,7 +47,7 @@ void light_hand(const HandShape& shape, const FingerPlace& finger, const RoomLig
     const float to_screen = 0.5F * (1 - normal[2]) * before_screen;
     const float from_below = 0.5F * (1 + normal[1]);
     const float openness = (1 - to_screen) * (1 - (1 - desk_bounce) * from_below);
-    const Light screen = scene.screen_light(place[0], place[1]);
+    const Light screen = shown.around(place[0], place[1]);
     Light light = product(vertex.tint, lighting.on(normal, openness) + screen * (screen_to_user * to_screen));
     const cv::Vec3f ray = project.position_mm - place;
     light += reflection(vertex, normal, ray * (1 / std::sqrt(ray.dot(ray))), lighting, lamp);

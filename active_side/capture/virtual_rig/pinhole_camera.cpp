@@ -60,11 +60,13 @@ RigPoint PinholeCamera::ray(double u_px, double v_px) const {
   const double y = (v_px - v0_px_) / focal_px_;
   double scale = 1;
   if (k1_ != 0) {
-    const double r_d = std::hypot(x, y);
+    const double r_d = std::sqrt(x * x + y * y);
     double r_u = r_d;
     for (int i = 0; i < 6; ++i) {
       const double r2 = std::min(r_u * r_u, largest_r2_);
-      r_u -= (r_u * (1 + k1_ * r2) - r_d) / (1 + 3 * k1_ * r2);
+      const double step = (r_u * (1 + k1_ * r2) - r_d) / (1 + 3 * k1_ * r2);
+      r_u -= step;
+      if (std::abs(step) < 1e-7) break;  // the next step would be of 1e-14
     }
     if (r_d > 0) scale = r_u / r_d;
   }

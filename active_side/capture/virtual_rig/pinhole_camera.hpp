@@ -18,6 +18,8 @@ struct CameraPose {
   double pitch_deg = 0;  // > 0: turned towards the user
   double yaw_deg = 0;    // > 0: turned towards the user's left
   double roll_deg = 0;   // > 0: the picture turns clockwise
+
+  bool operator==(const CameraPose&) const = default;
 };
 
 // Projects points in single precision.

@@ -12,12 +12,6 @@ namespace {
 constexpr std::size_t shapes_kept = 4;
 constexpr int rough_px = 30;  // mirror images blurred by more have no outlines that could be seen
 
-bool same_looks(const HandLooks& a, const HandLooks& b) {
-  return a.left == b.left && a.skin_tone == b.skin_tone && a.finger_width_mm == b.finger_width_mm &&
-         a.nail_mm == b.nail_mm && a.polish == b.polish && a.ring == b.ring && a.sleeve == b.sleeve &&
-         a.sleeve_tint == b.sleeve_tint;
-}
-
 // Whether two poses differ in their place only.
 bool same_shape(const HandPose& a, const HandPose& b) {
   if (a.second.has_value() != b.second.has_value()) return false;
@@ -31,7 +25,7 @@ bool same_shape(const HandPose& a, const HandPose& b) {
     if (!same_contacts || cv::norm(apart(a) - apart(b)) > 0.01) return false;
   }
   return a.approach_deg == b.approach_deg && a.lean_deg == b.lean_deg && a.turn_deg == b.turn_deg &&
-         a.bend_deg == b.bend_deg && a.press_mm == b.press_mm && same_looks(*a.looks, *b.looks);
+         a.bend_deg == b.bend_deg && a.press_mm == b.press_mm && a.looks == b.looks;
 }
 
 // The pixels of all triangles, and some for the outlines' blur.
@@ -71,11 +65,19 @@ RigRenderer::RigRenderer(const VirtualRigSettings& settings)
       view_(make_view(settings, development_)) {}
 
 void RigRenderer::show(const cv::Mat& picture) {
-  view_ = make_view(settings_, picture, development_);
+  view_ = make_view(settings_, picture, development_, view_);
 }
 
 std::shared_ptr<RigView> RigRenderer::view(const VirtualRigSettings& settings) {
-  return make_view(settings, development_);
+  return make_view(settings, development_, view_);
+}
+
+void RigRenderer::move_screen(double time_s) {
+  if (!view_->shown.move_to(time_s)) return;
+  const cv::Rect box = view_->window_box;
+  if (box.empty()) return;
+  develop(*view_, box, development_);
+  if (coded_view_ == view_) changed_.push_back(box);
 }
 
 const HandShape& RigRenderer::shape_of(const HandPose& pose) {
@@ -105,7 +107,7 @@ void RigRenderer::draw(const std::vector<HandPose>& hands, std::uint64_t noise_i
     HandPose pose = hands[i];
     if (!pose.looks) pose.looks = settings_.hand;
     const HandShape& shape = shape_of(pose);
-    light_hand(shape, pose.finger, view_->lighting, view_->scene, view_->camera, seen_[i]);
+    light_hand(shape, pose.finger, view_->lighting, view_->shown, view_->camera, seen_[i]);
     view_->shadow.add(shape.limbs, shape.place_for(pose.finger), view_->camera);
   }
   if (!hands.empty()) {
@@ -221,8 +223,8 @@ void RigRenderer::compose_row(int v, const cv::Range& columns, Light* row) {
       row[u] *= factor * factor;
     }
   }
-  const float* reflectance = view_->scene.reflectance.ptr<float>(v);
-  const Light* behind = view_->scene.mirrored.ptr<Light>(v);
+  const float* reflectance = view_->scene->reflectance.ptr<float>(v);
+  const Light* behind = view_->scene->mirrored.ptr<Light>(v);
   const cv::Range mirrored = mirror_image_.columns_within({v, v + 1}) & columns;
   const auto* image = mirror_image_.image.ptr<cv::Vec4f>(v - mirror_image_.box.y) - mirror_image_.box.x;
   for (int u = mirrored.start; u < mirrored.end; ++u) {

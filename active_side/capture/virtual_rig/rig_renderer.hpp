@@ -26,7 +26,7 @@ class RigRenderer {
  public:
   explicit RigRenderer(const VirtualRigSettings& settings);
 
-  // Shows another picture on the screen (CV_8UC3; renders the scene anew, some 100 ms).
+  // Shows another picture on the screen (CV_8UC3).
   void show(const cv::Mat& picture);
 
   // The same in two steps, for views that are wanted again: other screen pictures, light or places of the camera. Lens,
@@ -34,6 +34,9 @@ class RigRenderer {
   [[nodiscard]] std::shared_ptr<RigView> view(const VirtualRigSettings& settings);
   [[nodiscard]] std::shared_ptr<RigView> view() const { return view_; }
   void show(std::shared_ptr<RigView> view) { view_ = std::move(view); }
+
+  // What moves on the screen of the view that is shown is there where it is at that time.
+  void move_screen(double time_s);
 
   // No hands: nobody there. The same `noise_index` gives the same noise and exposure.
   void draw(const std::vector<HandPose>& hands, std::uint64_t noise_index, cv::Mat& bgr);
