@@ -31,7 +31,10 @@ double mean_tone(const cv::Mat& coded) {
 }  // namespace
 
 Development::Development(const VirtualRigSettings& settings)
-    : sensor_(settings.sensor), seed_(settings.seed), noisy_(settings.noise_sd > 0) {
+    : sensor_(settings.sensor),
+      lens_(settings.sensor.blur_px, settings.sensor.sharpening),
+      seed_(settings.seed),
+      noisy_(settings.noise_sd > 0) {
   if (!noisy_) return;
   cv::RNG generator(settings.seed + golden);
   cv::Mat noise(settings.image.height_px + noise_shift_px, settings.image.width_px + noise_shift_px, CV_32FC3);
@@ -43,22 +46,6 @@ Development::Development(const VirtualRigSettings& settings)
   const double scale = settings.noise_sd / deviation.at<double>(0);
   noise.convertTo(brighter_, CV_8U, scale);  // what is below 0 becomes 0
   noise.convertTo(darker_, CV_8U, -scale);
-}
-
-void Development::code(const cv::Mat& light, cv::Mat& coded) {
-  const int blur_reach = std::max(1, static_cast<int>(std::ceil(2.5 * sensor_.blur_px)));
-  if (sensor_.blur_px > 0) {
-    const cv::Size size(2 * blur_reach + 1, 2 * blur_reach + 1);
-    cv::GaussianBlur(light, tones_, size, sensor_.blur_px, 0, cv::BORDER_REPLICATE | cv::BORDER_ISOLATED);
-    cv::sqrt(tones_, tones_);
-  } else {
-    cv::sqrt(light, tones_);
-  }
-  if (sensor_.sharpening > 0) {
-    cv::GaussianBlur(tones_, blurred_, {5, 5}, 1.0, 0, cv::BORDER_REPLICATE | cv::BORDER_ISOLATED);
-    cv::addWeighted(tones_, 1 + sensor_.sharpening, blurred_, -sensor_.sharpening, 0, tones_);
-  }
-  tones_.convertTo(coded, CV_16U, code_scale * 255);
 }
 
 void Development::expose(const cv::Mat& coded, double exposure, cv::Mat& bgr) const {

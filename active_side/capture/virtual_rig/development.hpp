@@ -4,22 +4,19 @@
 #include <cstdint>
 #include <opencv2/core/mat.hpp>
 
+#include "capture/virtual_rig/lens.hpp"
 #include "capture/virtual_rig/settings.hpp"
 #include "pictures/jpeg_decoder.hpp"
 
 namespace telehug {
 
-// From light to a webcam's picture: lens blur, tone curve, sharpening; then, for the whole picture, exposure, noise and
-// JPEG. `coded` pictures (CV_16UC3) hold 16 * 255 * sqrt(light) and have room for what is too bright for 8 bits.
+// From light to a webcam's picture: lens, then, for the whole picture, exposure, noise and JPEG. `coded` pictures
+// (CV_16UC3) hold 16 * 255 * sqrt(light) and have room for what is too bright for 8 bits.
 class Development {
  public:
-  // Pixels around a change of the light that change in the coded picture.
-  static constexpr int margin_px = 6;
-
   explicit Development(const VirtualRigSettings& settings);
 
-  // CV_32FC3 to CV_16UC3 of the same size; what lies beyond the borders is taken to be as they are.
-  void code(const cv::Mat& light, cv::Mat& coded);
+  [[nodiscard]] Lens& lens() noexcept { return lens_; }
 
   // CV_16UC3 to CV_8UC3 with this exposure; no noise.
   void expose(const cv::Mat& coded, double exposure, cv::Mat& bgr) const;
@@ -35,12 +32,11 @@ class Development {
 
  private:
   SensorLooks sensor_;
+  Lens lens_;
   std::uint64_t seed_;
   bool noisy_;
   cv::Mat brighter_;  // noise to add and to subtract, larger than a picture by noise_shift_px
   cv::Mat darker_;
-  cv::Mat blurred_;
-  cv::Mat tones_;
 };
 
 }  // namespace telehug

@@ -18,6 +18,8 @@ struct HandLooks {
   bool ring = false;
   Sleeve sleeve = Sleeve::none;
   cv::Vec3d sleeve_tint{120, 80, 60};  // of sleeve or glove
+
+  bool operator==(const HandLooks&) const = default;
 };
 
 }  // namespace telehug

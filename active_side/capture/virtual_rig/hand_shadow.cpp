@@ -6,6 +6,7 @@
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include "capture/virtual_rig/picture_layer.hpp"
 #include "capture/virtual_rig/surroundings.hpp"
 
 namespace telehug {
@@ -84,31 +85,74 @@ void HandShadow::add(const std::vector<Limb>& limbs, const cv::Vec3f& origin, co
   }
 }
 
-cv::Rect HandShadow::finish(cv::Mat& factor) {
-  const cv::Rect all({0, 0}, planes_[0].density.size());
-  const cv::Rect box = (planes_[0].box | planes_[1].box) & all;
-  if (box.empty()) return {};
-  sum_.create(box.size(), CV_32FC1);
-  sum_ = 1.0F;
+void HandShadow::finish() {
+  const cv::Size size = planes_[0].density.size();
+  columns_.assign(static_cast<std::size_t>(size.height), {0, 0});
+  const cv::Rect box = (planes_[0].box | planes_[1].box) & cv::Rect({0, 0}, size);
+  if (box.empty()) return;
+  factor_.create(size, CV_32FC1);
+  factor_ = 1.0F;
   for (Plane& plane : planes_) {
     cv::Mat density = plane.density(box);
     const int reach = std::max(1, cvRound(plane.softness_px));
     for (int pass = 0; pass < 2; ++pass)
       cv::blur(density, density, {2 * reach + 1, 2 * reach + 1}, {-1, -1}, cv::BORDER_REPLICATE | cv::BORDER_ISOLATED);
-    for (int row = 0; row < box.height; ++row) {
-      const float* shadow = density.ptr<float>(row);
-      const float* takes = plane.takes.ptr<float>(row + box.y) + box.x;
-      float* sum = sum_.ptr<float>(row);
-      for (int column = 0; column < box.width; ++column)
-        sum[column] *= 1 - strength_ * shadow[column] * takes[column];
+    for (int row = box.y; row < box.y + box.height; ++row) {
+      const float* shadow = plane.density.ptr<float>(row);
+      const float* takes = plane.takes.ptr<float>(row);
+      float* factor = factor_.ptr<float>(row);
+      for (int column = box.x; column < box.x + box.width; ++column)
+        factor[column] *= 1 - strength_ * shadow[column] * takes[column];
     }
   }
-  cv::sqrt(sum_, sum_);
-  const cv::Rect full = cv::Rect(box.x * reduced, box.y * reduced, box.width * reduced, box.height * reduced);
-  cv::resize(sum_, factor, full.size(), 0, 0, cv::INTER_LINEAR);
-  const cv::Rect seen = full & cv::Rect({0, 0}, size_);
-  factor = factor(cv::Rect(0, 0, seen.width, seen.height));
-  return seen;
+  cv::sqrt(factor_, factor_);
+  const auto shaded = [](float factor) { return factor < 0.998F; };
+  for (int row = box.y; row < box.y + box.height; ++row) {
+    const float* begin = factor_.ptr<float>(row);
+    const float* end = begin + size.width;
+    const float* first = std::find_if(begin, end, shaded);
+    while (end > first && !shaded(end[-1]))
+      --end;
+    columns_[static_cast<std::size_t>(row)] = {static_cast<int>(first - begin), static_cast<int>(end - begin)};
+  }
+}
+
+// Pixel v lies (v + 0.5) / reduced - 0.5 rows down; its row of `factor_` and the next one are mixed.
+cv::Range HandShadow::columns(int v) const {
+  const auto rows = static_cast<int>(columns_.size());
+  const int above = std::clamp((v + reduced / 2) / reduced - 1, 0, rows - 1);
+  const cv::Range both = joined(columns_[static_cast<std::size_t>(above)],
+                                columns_[static_cast<std::size_t>(std::min(above + 1, rows - 1))]);
+  if (both.empty()) return {};
+  return {std::max(0, both.start - 1) * reduced, std::min(size_.width / reduced, both.end + 1) * reduced};
+}
+
+void HandShadow::factors(int v, float* factor) const {
+  const cv::Range shaded = columns(v);
+  const float down =
+      std::clamp((static_cast<float>(v) + 0.5F) / reduced - 0.5F, 0.0F, static_cast<float>(factor_.rows - 1));
+  const int row = std::min(static_cast<int>(down), factor_.rows - 2);
+  const float* above = factor_.ptr<float>(row);
+  const float* below = factor_.ptr<float>(row + 1);
+  const float of_below = down - static_cast<float>(row);
+  const int first = shaded.start / reduced - 1;  // one more at either side for the mixing
+  const int end = (shaded.end - 1) / reduced + 2;
+  std::vector<float>& between = between_;
+  between.resize(static_cast<std::size_t>(end - first));
+  for (int i = first; i < end; ++i) {
+    const int column = std::clamp(i, 0, factor_.cols - 1);
+    between[static_cast<std::size_t>(i - first)] = above[column] + (below[column] - above[column]) * of_below;
+  }
+  static_assert(reduced == 4);
+  for (int i = 0; i < shaded.size() / reduced; ++i) {  // columns() are multiples of four
+    const float* here = &between[static_cast<std::size_t>(i + shaded.start / reduced - first)];
+    const float before = here[0] - here[-1];
+    const float behind = here[1] - here[0];
+    factor[4 * i] = here[0] - 0.375F * before;
+    factor[4 * i + 1] = here[0] - 0.125F * before;
+    factor[4 * i + 2] = here[0] + 0.125F * behind;
+    factor[4 * i + 3] = here[0] + 0.375F * behind;
+  }
 }
 
 }  // namespace telehug

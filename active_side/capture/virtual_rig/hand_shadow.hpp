@@ -21,9 +21,11 @@ class HandShadow {
   void clear();
   void add(const std::vector<Limb>& limbs, const cv::Vec3f& origin, const PinholeCamera& camera);
 
-  // Where there may be shadow, and in `factor` (CV_32FC1 of that box) what coded light, the root of linear light, is
-  // multiplied with there.
-  cv::Rect finish(cv::Mat& factor);
+  // After the last hand. Then, for each row of the picture: where it may be shaded, and what coded light, the root of
+  // linear light, is multiplied with in all these columns.
+  void finish();
+  [[nodiscard]] cv::Range columns(int v) const;
+  void factors(int v, float* factor) const;
 
  private:
   struct Plane {
@@ -38,7 +40,10 @@ class HandShadow {
   cv::Vec3f towards_lamp_;
   float strength_ = 0;
   std::array<Plane, 2> planes_;
-  cv::Mat sum_;
+  cv::Rect box_;                    // of `factor_` where there may be shadow, in its pixels
+  cv::Mat factor_;                  // CV_32FC1 of a quarter of the picture's size
+  std::vector<cv::Range> columns_;  // of each row of factor_: where it is less than 1
+  mutable std::vector<float> between_;
 };
 
 }  // namespace telehug

@@ -30,6 +30,7 @@ VirtualRigSettings changed(VirtualRigSettings settings, const Disturbance& distu
       break;
     case DisturbanceKind::screen_flash:
       settings.content = ScreenContent::white;
+      settings.motion = ScreenMotion::still;
       settings.screen_picture.release();
       break;
     case DisturbanceKind::bump:
@@ -70,6 +71,7 @@ void PictureMaker::draw(const std::vector<HandPose>& hands, double time_s, std::
     return;
   }
   renderer_.show(views_.at(views_changed_at(disturbances_, time_s)));
+  renderer_.move_screen(time_s);
   renderer_.draw(hands, index, bgr);
   for (const Disturbance& disturbance : disturbances_) {
     if (!on(disturbance, time_s)) continue;

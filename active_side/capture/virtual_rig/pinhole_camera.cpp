@@ -48,17 +48,25 @@ ImagePoint PinholeCamera::project(const RigPoint& point) const {
   return {u0_px_ + x * scale, v0_px_ + y * scale};
 }
 
+PinholeProjection PinholeCamera::projection() const {
+  return {cv::Vec3f(position_mm_),   cv::Matx33f(camera_of_rig_),     static_cast<float>(focal_px_),
+          static_cast<float>(k1_),   static_cast<float>(largest_r2_), static_cast<float>(u0_px_),
+          static_cast<float>(v0_px_)};
+}
+
 // Newton's method on r_u (1 + k1 r_u^2) = r_d: six steps are exact to 1e-12 within a picture.
 RigPoint PinholeCamera::ray(double u_px, double v_px) const {
   const double x = (u_px - u0_px_) / focal_px_;
   const double y = (v_px - v0_px_) / focal_px_;
   double scale = 1;
   if (k1_ != 0) {
-    const double r_d = std::hypot(x, y);
+    const double r_d = std::sqrt(x * x + y * y);
     double r_u = r_d;
     for (int i = 0; i < 6; ++i) {
       const double r2 = std::min(r_u * r_u, largest_r2_);
-      r_u -= (r_u * (1 + k1_ * r2) - r_d) / (1 + 3 * k1_ * r2);
+      const double step = (r_u * (1 + k1_ * r2) - r_d) / (1 + 3 * k1_ * r2);
+      r_u -= step;
+      if (std::abs(step) < 1e-7) break;  // the next step would be of 1e-14
     }
     if (r_d > 0) scale = r_u / r_d;
   }

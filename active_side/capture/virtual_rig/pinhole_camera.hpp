@@ -18,6 +18,42 @@ struct CameraPose {
   double pitch_deg = 0;  // > 0: turned towards the user
   double yaw_deg = 0;    // > 0: turned towards the user's left
   double roll_deg = 0;   // > 0: the picture turns clockwise
+
+  bool operator==(const CameraPose&) const = default;
+};
+
+// Projects points in single precision.
+struct PinholeProjection {
+  struct Seen {
+    float u_px = 0;
+    float v_px = 0;
+    float depth_mm = 0;
+  };
+
+  cv::Vec3f position_mm;
+  cv::Matx33f camera_of_rig;
+  float focal_px = 0;
+  float k1 = 0;
+  float largest_r2 = 0;
+  float u0_px = 0;
+  float v0_px = 0;
+
+  // Its place in the picture only where the depth is more than 1 mm.
+  [[nodiscard]] Seen operator()(const cv::Vec3f& point) const {
+    const float dx = point[0] - position_mm[0];
+    const float dy = point[1] - position_mm[1];
+    const float dz = point[2] - position_mm[2];
+    const auto row = [&](int i) {
+      return camera_of_rig(i, 0) * dx + camera_of_rig(i, 1) * dy + camera_of_rig(i, 2) * dz;
+    };
+    const float depth = row(2);
+    const float near = depth > 1 ? 1 / depth : 1;
+    const float x = row(0) * near;
+    const float y = row(1) * near;
+    const float r2 = x * x + y * y;
+    const float scale = focal_px * (1 + k1 * (r2 < largest_r2 ? r2 : largest_r2));
+    return {u0_px + x * scale, v0_px + y * scale, depth};
+  }
 };
 
 // A pinhole camera whose lens distorts radially: a point that a perfect lens would show at x_u from the picture's
@@ -31,6 +67,9 @@ class PinholeCamera {
 
   // Only for points in front of the camera: depth_mm() > 0.
   [[nodiscard]] ImagePoint project(const RigPoint& point) const;
+
+  // The same for drawing: quicker, and exact to a thousandth of a pixel within the picture.
+  [[nodiscard]] PinholeProjection projection() const;
 
   // Distance of a point from the camera along its optical axis.
   [[nodiscard]] double depth_mm(const RigPoint& point) const { return in_camera(point)[2]; }

@@ -214,6 +214,11 @@ RandomRig random_rig(std::uint64_t seed, ImageSize image) {
   rig.contents = {ScreenContent::black, ScreenContent::chat, ScreenContent::white, ScreenContent::photo,
                   ScreenContent::desktop};
   s.content = rig.contents[1 + random.index(rig.contents.size() - 1)];
+  if (random.chance(0.4)) {
+    static constexpr std::array motions{ScreenMotion::scrolling, ScreenMotion::fading, ScreenMotion::rectangle,
+                                        ScreenMotion::flashing};
+    s.motion = random.one_of(motions);
+  }
   s.script = random_gestures(rig, 8, seed);
   return rig;
 }

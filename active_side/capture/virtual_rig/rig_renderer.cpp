@@ -10,12 +10,7 @@ namespace telehug {
 namespace {
 
 constexpr std::size_t shapes_kept = 4;
-
-bool same_looks(const HandLooks& a, const HandLooks& b) {
-  return a.left == b.left && a.skin_tone == b.skin_tone && a.finger_width_mm == b.finger_width_mm &&
-         a.nail_mm == b.nail_mm && a.polish == b.polish && a.ring == b.ring && a.sleeve == b.sleeve &&
-         a.sleeve_tint == b.sleeve_tint;
-}
+constexpr int rough_px = 30;  // mirror images blurred by more have no outlines that could be seen
 
 // Whether two poses differ in their place only.
 bool same_shape(const HandPose& a, const HandPose& b) {
@@ -30,7 +25,7 @@ bool same_shape(const HandPose& a, const HandPose& b) {
     if (!same_contacts || cv::norm(apart(a) - apart(b)) > 0.01) return false;
   }
   return a.approach_deg == b.approach_deg && a.lean_deg == b.lean_deg && a.turn_deg == b.turn_deg &&
-         a.bend_deg == b.bend_deg && a.press_mm == b.press_mm && same_looks(*a.looks, *b.looks);
+         a.bend_deg == b.bend_deg && a.press_mm == b.press_mm && a.looks == b.looks;
 }
 
 // The pixels of all triangles, and some for the outlines' blur.
@@ -70,11 +65,19 @@ RigRenderer::RigRenderer(const VirtualRigSettings& settings)
       view_(make_view(settings, development_)) {}
 
 void RigRenderer::show(const cv::Mat& picture) {
-  view_ = make_view(settings_, picture, development_);
+  view_ = make_view(settings_, picture, development_, view_);
 }
 
 std::shared_ptr<RigView> RigRenderer::view(const VirtualRigSettings& settings) {
-  return make_view(settings, development_);
+  return make_view(settings, development_, view_);
+}
+
+void RigRenderer::move_screen(double time_s) {
+  if (!view_->shown.move_to(time_s)) return;
+  const cv::Rect box = view_->window_box;
+  if (box.empty()) return;
+  develop(*view_, box, development_);
+  if (coded_view_ == view_) changed_.push_back(box);
 }
 
 const HandShape& RigRenderer::shape_of(const HandPose& pose) {
@@ -96,7 +99,7 @@ void RigRenderer::draw(const std::optional<FingerPlace>& finger, std::uint64_t n
 }
 
 void RigRenderer::draw(const std::vector<HandPose>& hands, std::uint64_t noise_index, cv::Mat& bgr) {
-  view_->coded.copyTo(coded_);
+  forget_before();
   drawn_.clear();
   seen_.resize(hands.size());
   view_->shadow.clear();
@@ -104,29 +107,43 @@ void RigRenderer::draw(const std::vector<HandPose>& hands, std::uint64_t noise_i
     HandPose pose = hands[i];
     if (!pose.looks) pose.looks = settings_.hand;
     const HandShape& shape = shape_of(pose);
-    light_hand(shape, pose.finger, view_->lighting, view_->scene, view_->camera, seen_[i]);
+    light_hand(shape, pose.finger, view_->lighting, view_->shown, view_->camera, seen_[i]);
     view_->shadow.add(shape.limbs, shape.place_for(pose.finger), view_->camera);
   }
   if (!hands.empty()) {
     add_shadows();
-    const cv::Rect picture({0, 0}, coded_.size());
-    const cv::Rect hand_box = raster(false, hand_image_, heights_);
-    const cv::Rect mirror_box = settings_.coat.mirror > 0 ? raster(true, mirror_image_, heights_) : cv::Rect();
-    if (!mirror_box.empty()) mirror_blur_.apply(mirror_image_, heights_);
-    const cv::Rect changed = hand_box | mirror_box;
-    if (!changed.empty()) compose(grown(changed, Development::margin_px, picture), hand_box, mirror_box);
+    mirror_image_.clear();
+    if (settings_.coat.mirror > 0 && raster(true)) {
+      mirror_image_.take(raster_);
+      mirror_blur_.apply(mirror_image_);
+    }
+    (void)raster(false);
+    compose();
   }
   development_.expose(coded_, development_.exposure_of(coded_, noise_index), bgr);
   development_.add_noise(noise_index, bgr);
   development_.compress(bgr);
 }
 
-cv::Rect RigRenderer::raster(bool mirrored, cv::Mat& image, cv::Mat& height_mm) {
+// The picture without hands.
+void RigRenderer::forget_before() {
+  if (coded_view_ == view_) {
+    for (const cv::Rect& box : changed_)
+      view_->coded(box).copyTo(coded_(box));
+  } else {
+    view_->coded.copyTo(coded_);
+    coded_view_ = view_;
+  }
+  changed_.clear();
+}
+
+// False if nothing of it is in the picture.
+bool RigRenderer::raster(bool mirrored) {
   const auto vertices = mirrored ? &SeenHand::mirrored : &SeenHand::direct;
   cv::Rect box = box_of(seen_, vertices, mirrored ? view_->screen_box : cv::Rect({0, 0}, coded_.size()));
-  if (box.empty()) return {};
-  if (mirrored) box = grown(box, mirror_blur_.reach_px(), view_->screen_box);
+  if (mirrored && !box.empty()) box = grown(box, mirror_blur_.reach_px(), view_->screen_box);
   raster_.begin(box);
+  if (box.empty()) return false;
   triangles_.clear();
   for (std::size_t i = 0; i < seen_.size(); ++i) {
     const std::vector<RasterVertex>& seen = seen_[i].*vertices;
@@ -143,62 +160,80 @@ cv::Rect RigRenderer::raster(bool mirrored, cv::Mat& image, cv::Mat& height_mm) 
       raster_.draw(a, b, c);
     }
   }
-  raster_.find_outlines();
+  raster_.find_outlines(!mirrored || mirror_blur_.reach_px() < rough_px);
   for (const auto& [a, b, c] : triangles_)
     raster_.cover_outlines(*a, *b, *c);
-  raster_.finish(image, height_mm);
-  return box;
+  return true;
 }
 
 void RigRenderer::add_shadows() {
-  shadow_box_ = view_->shadow.finish(shadow_factor_);
-  for (int v = 0; v < shadow_box_.height; ++v) {
-    const float* factor = shadow_factor_.ptr<float>(v);
-    auto* row = coded_.ptr<cv::Vec3w>(v + shadow_box_.y) + shadow_box_.x;
-    for (int u = 0; u < shadow_box_.width; ++u) {
-      if (factor[u] > 0.999F) continue;
-      const int of_65536 = static_cast<int>(factor[u] * 65536);
-      for (int c = 0; c < 3; ++c)
-        row[u][c] = static_cast<std::uint16_t>((row[u][c] * of_65536) >> 16);
+  view_->shadow.finish();
+  shadow_factor_.resize(static_cast<std::size_t>(coded_.cols));
+  shares_.resize(3 * shadow_factor_.size());
+  for (int v = 0; v < coded_.rows; ++v) {
+    const cv::Range columns = view_->shadow.columns(v);
+    if (columns.empty()) continue;
+    changed_.emplace_back(columns.start, v, columns.size(), 1);
+    view_->shadow.factors(v, shadow_factor_.data());
+    for (int u = 0; u < columns.size(); ++u) {
+      const auto share =
+          static_cast<std::uint16_t>(static_cast<int>(shadow_factor_[static_cast<std::size_t>(u)] * 65535));
+      std::fill_n(&shares_[static_cast<std::size_t>(3 * u)], 3, share);
     }
+    auto* row = coded_.ptr<std::uint16_t>(v) + 3 * static_cast<std::ptrdiff_t>(columns.start);
+    const std::uint16_t* share = shares_.data();
+    for (int i = 0; i < 3 * columns.size(); ++i)
+      row[i] = static_cast<std::uint16_t>((std::uint32_t{row[i]} * share[i]) >> 16);
   }
 }
 
-// Light of a box, from back to front, with what lies around it for the lens' blur.
-void RigRenderer::compose(const cv::Rect& box, const cv::Rect& hand_box, const cv::Rect& mirror_box) {
-  const cv::Rect around = grown(box, Development::margin_px, {{0, 0}, coded_.size()});
-  view_->light(around).copyTo(composed_);
-  const cv::Rect shaded = around & shadow_box_;
-  for (int v = shaded.y; v < shaded.y + shaded.height; ++v) {
-    const float* factor = shadow_factor_.ptr<float>(v - shadow_box_.y) - shadow_box_.x;
-    Light* row = composed_.ptr<Light>(v - around.y) - around.x;
-    for (int u = shaded.x; u < shaded.x + shaded.width; ++u)
-      row[u] *= factor[u] * factor[u];
+// Where hands or their mirror images are seen, in bands, since the box around them is mostly not covered by them.
+void RigRenderer::compose() {
+  constexpr int band_rows = 64;
+  const cv::Rect picture({0, 0}, coded_.size());
+  const cv::Rect all = grown(raster_.box() | mirror_image_.box, Lens::margin_px, picture);
+  for (int v = all.y; v < all.y + all.height; v += band_rows) {
+    const int end = std::min(v + band_rows, all.y + all.height);
+    const cv::Range near(v - Lens::margin_px, end + Lens::margin_px);
+    const cv::Range columns = joined(raster_.columns_within(near), mirror_image_.columns_within(near));
+    if (columns.empty()) continue;
+    const cv::Rect band(columns.start - Lens::margin_px, v, columns.size() + 2 * Lens::margin_px, end - v);
+    compose(band & picture);
   }
-  for (int v = mirror_box.y; v < mirror_box.y + mirror_box.height; ++v) {
-    const auto* image = mirror_image_.ptr<cv::Vec4f>(v - mirror_box.y) - mirror_box.x;
-    const float* reflectance = view_->scene.reflectance.ptr<float>(v);
-    const Light* behind = view_->scene.mirrored.ptr<Light>(v);
-    Light* row = composed_.ptr<Light>(v - around.y) - around.x;
-    for (int u = mirror_box.x; u < mirror_box.x + mirror_box.width; ++u) {
-      const cv::Vec4f& seen = image[u];
-      if (seen[3] <= 0) continue;
-      for (int c = 0; c < 3; ++c)
-        row[u][c] += reflectance[u] * (seen[c] - seen[3] * behind[u][c]);
+}
+
+void RigRenderer::compose(const cv::Rect& box) {
+  const cv::Rect around = grown(box, Lens::margin_px, {{0, 0}, coded_.size()});
+  development_.lens().code(around, box, coded_, [&](int v, Light* row) {
+    compose_row(v, {around.x, around.x + around.width}, row - around.x);
+  });
+  changed_.push_back(box);
+}
+
+// Light from back to front.
+void RigRenderer::compose_row(int v, const cv::Range& columns, Light* row) {
+  light_of(view_->light.ptr<std::uint16_t>(v) + 3 * static_cast<std::ptrdiff_t>(columns.start), 3 * columns.size(),
+           row[columns.start].val);
+  const cv::Range may_be_shaded = view_->shadow.columns(v);
+  const cv::Range shaded = may_be_shaded & columns;
+  if (!shaded.empty()) {
+    view_->shadow.factors(v, shadow_factor_.data());
+    for (int u = shaded.start; u < shaded.end; ++u) {
+      const float factor = shadow_factor_[static_cast<std::size_t>(u - may_be_shaded.start)];
+      row[u] *= factor * factor;
     }
   }
-  for (int v = hand_box.y; v < hand_box.y + hand_box.height; ++v) {
-    const auto* image = hand_image_.ptr<cv::Vec4f>(v - hand_box.y) - hand_box.x;
-    Light* row = composed_.ptr<Light>(v - around.y) - around.x;
-    for (int u = hand_box.x; u < hand_box.x + hand_box.width; ++u) {
-      const cv::Vec4f& seen = image[u];
-      if (seen[3] <= 0) continue;
-      for (int c = 0; c < 3; ++c)
-        row[u][c] = row[u][c] * (1 - seen[3]) + seen[c];
-    }
+  const float* reflectance = view_->scene->reflectance.ptr<float>(v);
+  const Light* behind = view_->scene->mirrored.ptr<Light>(v);
+  const cv::Range mirrored = mirror_image_.columns_within({v, v + 1}) & columns;
+  const auto* image = mirror_image_.image.ptr<cv::Vec4f>(v - mirror_image_.box.y) - mirror_image_.box.x;
+  for (int u = mirrored.start; u < mirrored.end; ++u) {
+    for (int c = 0; c < 3; ++c)
+      row[u][c] += reflectance[u] * (image[u][c] - image[u][3] * behind[u][c]);
   }
-  development_.code(composed_, coded_part_);
-  coded_part_({box.x - around.x, box.y - around.y, box.width, box.height}).copyTo(coded_(box));
+  raster_.row(v, columns, [&](int u, const Light& light, float coverage, float /*height_mm*/) {
+    row[u] = row[u] * (1 - coverage) + light * coverage;
+  });
 }
 
 }  // namespace telehug

@@ -13,6 +13,7 @@
 #include "capture/virtual_rig/hand_shading.hpp"
 #include "capture/virtual_rig/mesh_raster.hpp"
 #include "capture/virtual_rig/mirror_blur.hpp"
+#include "capture/virtual_rig/picture_layer.hpp"
 #include "capture/virtual_rig/pinhole_camera.hpp"
 #include "capture/virtual_rig/rig_view.hpp"
 #include "capture/virtual_rig/settings.hpp"
@@ -25,7 +26,7 @@ class RigRenderer {
  public:
   explicit RigRenderer(const VirtualRigSettings& settings);
 
-  // Shows another picture on the screen (CV_8UC3; renders the scene anew, some 100 ms).
+  // Shows another picture on the screen (CV_8UC3).
   void show(const cv::Mat& picture);
 
   // The same in two steps, for views that are wanted again: other screen pictures, light or places of the camera. Lens,
@@ -33,6 +34,9 @@ class RigRenderer {
   [[nodiscard]] std::shared_ptr<RigView> view(const VirtualRigSettings& settings);
   [[nodiscard]] std::shared_ptr<RigView> view() const { return view_; }
   void show(std::shared_ptr<RigView> view) { view_ = std::move(view); }
+
+  // What moves on the screen of the view that is shown is there where it is at that time.
+  void move_screen(double time_s);
 
   // No hands: nobody there. The same `noise_index` gives the same noise and exposure.
   void draw(const std::vector<HandPose>& hands, std::uint64_t noise_index, cv::Mat& bgr);
@@ -49,9 +53,12 @@ class RigRenderer {
   };
 
   const HandShape& shape_of(const HandPose& pose);
-  [[nodiscard]] cv::Rect raster(bool mirrored, cv::Mat& image, cv::Mat& height_mm);
+  void forget_before();
+  bool raster(bool mirrored);
   void add_shadows();
-  void compose(const cv::Rect& box, const cv::Rect& hand_box, const cv::Rect& mirror_box);
+  void compose();
+  void compose(const cv::Rect& box);
+  void compose_row(int v, const cv::Range& columns, Light* row);
 
   VirtualRigSettings settings_;
   Development development_;
@@ -60,18 +67,16 @@ class RigRenderer {
   std::shared_ptr<RigView> view_;
   std::vector<std::shared_ptr<const KnownShape>> shapes_;  // the newest last
 
-  // Of the picture that is being drawn.
+  // Of the picture that is being drawn, or was drawn before.
   cv::Mat coded_;
+  std::shared_ptr<RigView> coded_view_;  // `coded_` is its picture but for these boxes:
+  std::vector<cv::Rect> changed_;
   std::vector<std::shared_ptr<const KnownShape>> drawn_;
   std::vector<SeenHand> seen_;
   std::vector<std::array<const RasterVertex*, 3>> triangles_;  // those that face the camera
-  cv::Mat shadow_factor_;
-  cv::Rect shadow_box_;
-  cv::Mat hand_image_;
-  cv::Mat mirror_image_;
-  cv::Mat heights_;
-  cv::Mat composed_;
-  cv::Mat coded_part_;
+  std::vector<float> shadow_factor_;                           // of a row
+  std::vector<std::uint16_t> shares_;  // of the light that is left, for a row's blue, green and red values
+  PictureLayer mirror_image_;
 };
 
 }  // namespace telehug

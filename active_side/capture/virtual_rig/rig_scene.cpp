@@ -13,36 +13,22 @@ namespace {
 
 const cv::Vec3f upwards{0, -1, 0};
 const cv::Vec3f to_user{0, 0, 1};
-constexpr double content_step_mm = 0.5;  // finer than the camera sees it
-constexpr double light_step_mm = 10;
-
 struct Sample {
   Light own;
-  Light mirrored;  // times the reflectance
+  cv::Vec3f screen;  // place on it, and its share
+  Light mirrored;    // times the reflectance
   float reflectance = 0;
   float height_mm = 0;  // of what is mirrored, above the screen
   int surfaces = 0;     // own and mirrored one: where they change an edge runs
 };
 
-cv::Mat as_light(const cv::Mat& shown, const cv::Size& size, double luminance) {
-  cv::Mat scaled;
-  cv::resize(shown, scaled, size, 0, 0, shown.cols > size.width ? cv::INTER_AREA : cv::INTER_LINEAR);
-  scaled.convertTo(scaled, CV_32F, 1.0 / 255);
-  cv::multiply(scaled, scaled, scaled, luminance);
-  return scaled;
-}
-
 class SceneRenderer {
  public:
-  SceneRenderer(const VirtualRigSettings& settings, const PinholeCamera& camera, const cv::Mat& shown)
+  SceneRenderer(const VirtualRigSettings& settings, const PinholeCamera& camera)
       : settings_(settings),
         camera_(camera),
         surroundings_(settings),
         lighting_(settings.light),
-        content_(as_light(shown,
-                          {std::max(1, cvRound(settings.screen.width_mm / content_step_mm)),
-                           std::max(1, cvRound(settings.screen.height_mm / content_step_mm))},
-                          settings.screen_luminance)),
         haze_(lighting_.on(to_user) * static_cast<float>(settings.coat.haze)),
         bezel_front_(product(linear(settings.bezel_tint), lighting_.on(to_user, 0.9F))),
         bezel_edge_(product(linear(settings.bezel_tint), lighting_.on(upwards, 0.85F))) {}
@@ -64,7 +50,7 @@ class SceneRenderer {
   }
 
  private:
-  static Sample plain(const Seen& seen) { return {seen.light, {}, 0, 0, static_cast<int>(seen.surface)}; }
+  static Sample plain(const Seen& seen) { return {seen.light, {}, {}, 0, 0, static_cast<int>(seen.surface)}; }
 
   // The lower part of the frame: its front and the edge that looks up at the camera.
   [[nodiscard]] std::optional<Seen> look_at_bezel(const RigPoint& from, const RigPoint& ray) const {
@@ -92,7 +78,8 @@ class SceneRenderer {
     if (!seen) seen = surroundings_.look(p, back);
     const auto cosine = static_cast<float>(-ray[2] / cv::norm(ray));
     Sample sample;
-    sample.own = content_at(p[0], p[1]) + haze_;
+    sample.own = haze_;
+    sample.screen = {static_cast<float>(p[0]), static_cast<float>(p[1]), 1};
     sample.reflectance = static_cast<float>(settings_.coat.mirror) * fresnel(cosine);
     sample.mirrored = seen->light * sample.reflectance;
     sample.height_mm = static_cast<float>(seen->distance * back[2]);
@@ -100,25 +87,10 @@ class SceneRenderer {
     return sample;
   }
 
-  // Bilinear.
-  [[nodiscard]] Light content_at(double x_mm, double y_mm) const {
-    const double column = std::clamp(x_mm / content_step_mm - 0.5, 0.0, content_.cols - 1.0);
-    const double row = std::clamp(y_mm / content_step_mm - 0.5, 0.0, content_.rows - 1.0);
-    const int c0 = static_cast<int>(column);
-    const int r0 = static_cast<int>(row);
-    const int c1 = std::min(c0 + 1, content_.cols - 1);
-    const int r1 = std::min(r0 + 1, content_.rows - 1);
-    const auto fc = static_cast<float>(column - c0);
-    const auto fr = static_cast<float>(row - r0);
-    return (content_.at<Light>(r0, c0) * (1 - fc) + content_.at<Light>(r0, c1) * fc) * (1 - fr) +
-           (content_.at<Light>(r1, c0) * (1 - fc) + content_.at<Light>(r1, c1) * fc) * fr;
-  }
-
   const VirtualRigSettings& settings_;
   const PinholeCamera& camera_;
   Surroundings surroundings_;
   RoomLighting lighting_;
-  cv::Mat content_;
   Light haze_;
   Light bezel_front_;
   Light bezel_edge_;
@@ -129,6 +101,7 @@ class Canvas {
   Canvas(const SceneRenderer& renderer, cv::Size size)
       : renderer_(renderer),
         own(size, CV_32FC3),
+        screen(size, CV_32FC3),
         mirrored(size, CV_32FC3),
         reflectance(size, CV_32FC1),
         height(size, CV_32FC1),
@@ -145,6 +118,7 @@ class Canvas {
  private:
   void store(int v, int u, const Sample& sample) {
     own.at<Light>(v, u) = sample.own;
+    screen.at<cv::Vec3f>(v, u) = sample.screen;
     mirrored.at<Light>(v, u) = sample.mirrored;
     reflectance.at<float>(v, u) = sample.reflectance;
     height.at<float>(v, u) = sample.height_mm;
@@ -166,9 +140,12 @@ class Canvas {
         for (int i = 0; i < 16; ++i) {
           const Sample sample = renderer_.look(u + (i % 4 - 1.5) / 4, v + (static_cast<double>(i / 4) - 1.5) / 4);
           mean.own += sample.own * (1.0F / 16);
+          mean.screen += cv::Vec3f(sample.screen[0], sample.screen[1], 1) * (sample.screen[2] / 16);
           mean.mirrored += sample.mirrored * (1.0F / 16);
           mean.reflectance += sample.reflectance / 16;
         }
+        if (mean.screen[2] > 0)
+          mean.screen = {mean.screen[0] / mean.screen[2], mean.screen[1] / mean.screen[2], mean.screen[2]};
         store(v, u, mean);
       }
     }
@@ -178,6 +155,7 @@ class Canvas {
 
  public:
   cv::Mat own;
+  cv::Mat screen;
   cv::Mat mirrored;
   cv::Mat reflectance;
   cv::Mat height;
@@ -186,7 +164,9 @@ class Canvas {
 
 // Divides by the reflectance what came multiplied with it, and blurs it.
 cv::Mat blurred_mirror(const Canvas& canvas, const VirtualRigSettings& settings) {
-  cv::Mat image(canvas.own.size(), CV_32FC4);
+  PictureLayer layer{cv::Rect({0, 0}, canvas.own.size()), cv::Mat(canvas.own.size(), CV_32FC4), canvas.height, {}};
+  layer.columns.assign(static_cast<std::size_t>(canvas.own.rows), {0, canvas.own.cols});
+  cv::Mat& image = layer.image;
   for (int v = 0; v < image.rows; ++v) {
     for (int u = 0; u < image.cols; ++u) {
       const float reflectance = canvas.reflectance.at<float>(v, u);
@@ -194,8 +174,7 @@ cv::Mat blurred_mirror(const Canvas& canvas, const VirtualRigSettings& settings)
       image.at<cv::Vec4f>(v, u) = {light[0], light[1], light[2], reflectance > 0 ? 1.0F : 0.0F};
     }
   }
-  MirrorBlur(settings.coat.roughness_deg, settings.focal_px, settings.camera.position_mm[2])
-      .apply(image, canvas.height);
+  MirrorBlur(settings.coat.roughness_deg, settings.focal_px, settings.camera.position_mm[2]).apply(layer);
   cv::Mat mirrored(image.size(), CV_32FC3);
   for (int v = 0; v < image.rows; ++v) {
     for (int u = 0; u < image.cols; ++u) {
@@ -217,27 +196,28 @@ float fresnel(float cosine) {
   return (across * across + along * along) / 2;
 }
 
-Light RigScene::screen_light(double x_mm, double y_mm) const {
-  const int column = std::clamp(static_cast<int>(x_mm / light_step_mm), 0, content.cols - 1);
-  const int row = std::clamp(static_cast<int>(y_mm / light_step_mm), 0, content.rows - 1);
-  return content.at<Light>(row, column);
-}
-
-RigScene render_scene(const VirtualRigSettings& settings, const PinholeCamera& camera, const cv::Mat& shown) {
-  const SceneRenderer renderer(settings, camera, shown);
+RigScene render_scene(const VirtualRigSettings& settings, const PinholeCamera& camera) {
+  const SceneRenderer renderer(settings, camera);
   Canvas canvas(renderer, {settings.image.width_px, settings.image.height_px});
   canvas.render();
   RigScene scene;
   scene.mirrored = blurred_mirror(canvas, settings);
   scene.own = canvas.own;
+  scene.screen = canvas.screen;
   scene.reflectance = canvas.reflectance;
   scene.surface = canvas.surfaces & 15;
-  scene.content = as_light(shown,
-                           {std::max(1, cvRound(settings.screen.width_mm / light_step_mm)),
-                            std::max(1, cvRound(settings.screen.height_mm / light_step_mm))},
-                           settings.screen_luminance);
-  cv::blur(scene.content, scene.content, {3, 3});
   return scene;
+}
+
+bool same_scene(const VirtualRigSettings& a, const VirtualRigSettings& b) {
+  const auto same_size = [](const auto& one, const auto& other) {
+    return one.width_px == other.width_px && one.height_px == other.height_px;
+  };
+  return a.screen.width_mm == b.screen.width_mm && a.screen.height_mm == b.screen.height_mm &&
+         same_size(a.image, b.image) && a.focal_px == b.focal_px && a.distortion_k1 == b.distortion_k1 &&
+         a.camera == b.camera && a.bezel_mm == b.bezel_mm && a.bezel_raised_mm == b.bezel_raised_mm &&
+         a.bezel_tint == b.bezel_tint && a.desk_below_mm == b.desk_below_mm && a.coat == b.coat && a.light == b.light &&
+         a.desk == b.desk;
 }
 
 }  // namespace telehug

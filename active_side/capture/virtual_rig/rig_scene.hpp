@@ -10,20 +10,20 @@
 namespace telehug {
 
 // What the camera sees while nobody is there: screen, bezel, desk and what lies on it. All of the picture's size,
-// before lens and sensor. A pixel's light is own + reflectance * mirrored.
+// before lens and sensor. A pixel's light is own + screen's share * what the screen shows there + reflectance *
+// mirrored.
 struct RigScene {
-  cv::Mat own;          // CV_32FC3, linear
+  cv::Mat own;          // CV_32FC3, linear, without what the screen shows
+  cv::Mat screen;       // CV_32FC3: x and y in mm on the screen, and how much of the pixel looks at it
   cv::Mat mirrored;     // CV_32FC3, what the screen mirrors, already blurred by its roughness; 0 elsewhere
   cv::Mat reflectance;  // CV_32FC1, share of the light that the screen mirrors here; 0 elsewhere
   cv::Mat surface;      // CV_8UC1, a Surface
-  cv::Mat content;      // CV_32FC3, light of the screen's picture at 1 px per 10 mm: what falls onto fingers before it
-
-  // Light that the screen sends out around a place, mean over some 20 mm.
-  [[nodiscard]] Light screen_light(double x_mm, double y_mm) const;
 };
 
-// `shown` is on the screen (CV_8UC3, any size, stretched over it).
-RigScene render_scene(const VirtualRigSettings& settings, const PinholeCamera& camera, const cv::Mat& shown);
+RigScene render_scene(const VirtualRigSettings& settings, const PinholeCamera& camera);
+
+// Whether both rigs' scenes are the same.
+bool same_scene(const VirtualRigSettings& a, const VirtualRigSettings& b);
 
 // Share of light that glass (index 1.5) mirrors when it comes at an angle whose cosine to the normal is given.
 float fresnel(float cosine);

@@ -19,12 +19,17 @@ using Tint = cv::Vec3d;
 // What is on the screen when no picture is given.
 enum class ScreenContent { gradient, black, white, chat, photo, desktop };
 
+// What moves in a part of the screen, from picture to picture of a script.
+enum class ScreenMotion { still, scrolling, fading, rectangle, flashing };
+
 // The light of the room. What lies open is as bright as its own tint says when `level` is 1.
 struct RoomLight {
   double level = 1;
   cv::Vec3d colour{1, 1, 1};             // blue, green, red; warm light: {0.7, 0.9, 1.1}
   cv::Vec3d towards{0.15, -0.83, 0.53};  // the lamp, in the rig frame (-y: above)
   double directed = 0.22;                // share that comes from there, the rest comes from all sides
+
+  bool operator==(const RoomLight&) const = default;
 };
 
 // How the screen's surface reflects. Bare glass: mirror 1, roughness 0.
@@ -32,6 +37,8 @@ struct ScreenCoat {
   double mirror = 0.3;       // as a share of what bare glass mirrors (Fresnel), 0 to 1
   double roughness_deg = 2;  // standard deviation of the surface's tilt: 0.1 glossy, 6 matt
   double haze = 0.004;       // share of the room's light that it scatters (a black screen's grey), linear
+
+  bool operator==(const ScreenCoat&) const = default;
 };
 
 enum class DeskKind { plain, wood, stone };
@@ -45,6 +52,8 @@ struct DeskLooks {
   bool keyboard = false;
   bool cup = false;
   std::uint64_t seed = 1;  // of the grain and of where things lie
+
+  bool operator==(const DeskLooks&) const = default;
 };
 
 // What lens and electronics make of the light.
@@ -80,6 +89,7 @@ struct VirtualRigSettings {
   bool real_time = true;  // false: as fast as it is read
   bool repeat = true;     // play the script again and again; false: end after it
   ScreenContent content = ScreenContent::gradient;
+  ScreenMotion motion = ScreenMotion::still;
   double screen_luminance = 0.75;  // of white on the screen, seen at the grazing angle of the camera, linear
   cv::Mat screen_picture;          // CV_8UC3, shown over the whole screen; empty: `content`
   TouchScript script;              // empty: default_script(screen)

@@ -110,6 +110,17 @@ std::vector<Figure> measure() {
   }));
   figures.push_back(measured("rig.new_scene", 10,
                              [&](int i) { (void)renderer.view(random_rig(static_cast<std::uint64_t>(i)).settings); }));
+  figures.push_back(measured("rig.other_picture", 20, [&](int i) {
+    VirtualRigSettings other = settings;
+    other.seed = static_cast<std::uint64_t>(i);
+    other.content = ScreenContent::chat;
+    (void)renderer.view(other);
+  }));
+  VirtualRigSettings moving = settings;
+  moving.content = ScreenContent::photo;
+  moving.motion = ScreenMotion::scrolling;
+  renderer.show(renderer.view(moving));
+  figures.push_back(measured("rig.moving_screen", rounds, [&](int i) { renderer.move_screen(0.04 * i); }));
   return figures;
 }
 

@@ -204,6 +204,49 @@ TEST(RigFeatures, DisturbancesShowAndEnd) {
   EXPECT_EQ(at(11.5, hand), 0);
 }
 
+TEST(RigFeatures, AMovingScreenChangesInItsWindowOnly) {
+  for (const ScreenMotion motion :
+       {ScreenMotion::scrolling, ScreenMotion::fading, ScreenMotion::rectangle, ScreenMotion::flashing}) {
+    VirtualRigSettings settings = plain_rig();
+    settings.content = ScreenContent::photo;
+    settings.motion = motion;
+    RigRenderer renderer(settings);
+    cv::Mat before;
+    cv::Mat after;
+    cv::Mat again;
+    renderer.draw(std::vector<HandPose>{}, 0, before);
+    renderer.move_screen(0.3);
+    renderer.draw(std::vector<HandPose>{}, 0, after);
+    EXPECT_GT(cv::norm(after, before, cv::NORM_INF), 15) << static_cast<int>(motion);
+    EXPECT_EQ(cv::norm(after.rowRange(0, 250), before.rowRange(0, 250), cv::NORM_INF), 0);  // desk and bezel
+    renderer.move_screen(0);
+    renderer.draw(std::vector<HandPose>{}, 0, again);
+    EXPECT_EQ(cv::norm(again, before, cv::NORM_INF), 0);
+  }
+}
+
+TEST(RigFeatures, AViewWithAnotherPictureIsAsIfMadeAnew) {
+  VirtualRigSettings settings = plain_rig();
+  settings.coat.mirror = 0.5;
+  RigRenderer renderer(settings);
+  settings.content = ScreenContent::photo;
+  renderer.show(renderer.view(settings));
+  cv::Mat bgr;
+  renderer.draw(std::vector{touch_at(190, 200)}, 0, bgr);
+  EXPECT_EQ(cv::norm(bgr, picture(settings, {touch_at(190, 200)}), cv::NORM_INF), 0);
+}
+
+TEST(RigFeatures, APictureDoesNotDependOnTheHandsBeforeIt) {
+  const VirtualRigSettings settings = plain_rig();
+  RigRenderer renderer(settings);
+  cv::Mat bgr;
+  renderer.draw(std::vector{touch_at(150, 180)}, 0, bgr);
+  renderer.draw(std::vector{touch_at(230, 250)}, 0, bgr);
+  EXPECT_EQ(cv::norm(bgr, picture(settings, {touch_at(230, 250)}), cv::NORM_INF), 0);
+  renderer.draw(std::vector<HandPose>{}, 0, bgr);
+  EXPECT_EQ(cv::norm(bgr, picture(settings), cv::NORM_INF), 0);
+}
+
 TEST(RigFeatures, JpegLeavesItsMarks) {
   VirtualRigSettings settings = plain_rig();
   settings.content = ScreenContent::desktop;
