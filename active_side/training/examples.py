@@ -53,6 +53,20 @@ def vary_colours(x, rng):
     return (x + sd * torch.randn(x.shape)).clamp(0, 1)
 
 
+def vary_parts(x, rng):
+    """Edges where there are none: in a third of the patches what lies on one side of a line has another colour."""
+    n, _, rows, columns = x.shape
+    angle = rng.uniform(0, 2 * np.pi, (n, 1, 1))
+    across, along = np.meshgrid(np.arange(columns), np.arange(rows))
+    from_column, from_row = rng.uniform(10, columns - 10, (n, 1, 1)), rng.uniform(0, rows - 20, (n, 1, 1))
+    side = np.cos(angle) * (across - from_column) + np.sin(angle) * (along - from_row)
+    share = np.clip(side / rng.uniform(0.5, 4, (n, 1, 1)) + 0.5, 0, 1) * (rng.uniform(size=(n, 1, 1)) < 0.35)
+    share = torch.from_numpy(share).float()[:, None]
+    tint = torch.from_numpy(rng.uniform(0, 1, (n, 3, 1, 1))).float()
+    strength = torch.from_numpy(rng.uniform(0.1, 0.55, (n, 1, 1, 1))).float()
+    return x + share * strength * (tint - x)
+
+
 def overview_batch(overviews, picks, rng, vary, columns=160, rows=72):
     """Inputs n, 5, rows, columns; targets and weights for every second column and row."""
     n = len(picks)
@@ -124,7 +138,7 @@ def tip_batch(patches, picks, rng, vary, jitter=12.0):
     x = torch.from_numpy(pixels).permute(0, 3, 1, 2).float() / 255
     x = F.grid_sample(x, grid, padding_mode="border", align_corners=True)
     if vary:
-        x = vary_colours(x, rng)
+        x = vary_colours(vary_parts(x, rng), rng)
     place = numbers[:, 6:8].copy()
     place[:, 0] *= flip
     out = numbers[:, :6].copy()

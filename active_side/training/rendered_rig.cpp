@@ -83,7 +83,13 @@ RandomFrame RenderedRig::random_picture(FrameKind kind, std::uint64_t seed) cons
 
 RenderedFrame RenderedRig::frame(std::uint64_t index) {
   const std::uint64_t seed = rig_.settings.seed * 1000 + index;
-  const RandomFrame drawn = random_picture(kinds[index % kinds.size()], seed);
+  RandomFrame drawn = random_picture(kinds[index % kinds.size()], seed);
+  // Fingers that lie on their side are seldom, and hardest to see through: nail and pad are both at their end.
+  RandomNumbers random(seed + 5);
+  for (HandPose& hand : drawn.hands) {
+    if (random.chance(0.5)) hand.turn_deg = random.uniform(-65, 65);
+    if (random.chance(0.3)) hand.looks->polish = cv::Vec3d(random.uniform(0, 255), random.uniform(0, 255), random.uniform(0, 255));
+  }
   RenderedFrame frame;
   renderer_->show(view_of(drawn, !picture_.empty() && index % 2 == 1));
   renderer_->draw(drawn.hands, seed, frame.bgr);
