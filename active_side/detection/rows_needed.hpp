@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "calibration/calibration.hpp"
+#include "common/row_range.hpp"
+
+namespace telehug {
+
+// The rows of the camera's pictures (as it delivers them, be it upside down) in which a detector looks for fingers:
+// from some way in front of the screen's bottom edge, where a finger comes from, over all of the screen.
+[[nodiscard]] RowRange rows_needed(const Calibration& calibration);
+
+}  // namespace telehug
