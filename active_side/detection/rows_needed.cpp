@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "detection/make_detector.hpp"
+#include "finger/border_strip.hpp"
 
 namespace telehug {
 namespace {
@@ -15,17 +15,18 @@ constexpr double in_front_of_strip_px = 150;
 
 }  // namespace
 
-RowRange rows_needed(const Calibration& calibration) {
-  const Calibration turned = upright(calibration);
-  const BorderCurve border = border_curve(turned);
+RowRange rows_needed(const BorderCurve& border, ImageSize image) {
   double highest_px = border.v_at(0);
-  for (int u = 1; u < turned.image.width_px; ++u)
+  for (int u = 1; u < image.width_px; ++u)
     highest_px = std::min(highest_px, border.v_at(u));
-  const BorderStrip::Layout strip(border, turned.image);
+  const BorderStrip::Layout strip(border, image);
   const double first_px = highest_px + strip.offset_px(BorderStrip::rails - 1) - in_front_of_strip_px * strip.scale;
-  const RowRange rows =
-      RowRange{static_cast<int>(std::floor(first_px)), turned.image.height_px}.within(turned.image.height_px);
-  return is_upside_down(calibration) ? rows.flipped(turned.image.height_px) : rows;
+  return RowRange{static_cast<int>(std::floor(first_px)), image.height_px}.within(image.height_px);
+}
+
+RowRange rows_needed(const Calibration& calibration) {
+  const RowRange rows = rows_needed(border_curve(upright(calibration)), calibration.image);
+  return is_upside_down(calibration) ? rows.flipped(calibration.image.height_px) : rows;
 }
 
 }  // namespace telehug
