@@ -122,6 +122,7 @@ void ActiveDaemon::take_frame() {
     frame_.sequence = 0;
     (void)camera_->open();  // read() says why it could not
   }
+  camera_->need_rows(rig_->pipeline.rows_needed());
   const ReadOutcome outcome = camera_->read(frame_, longest_wait_for_a_frame);
   rig_->face->update(map_);
   if (outcome == ReadOutcome::lost && !camera_lost_) camera_losses_.add();

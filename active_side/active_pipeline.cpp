@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "detection/rows_needed.hpp"
 #include "touch/screen_points.hpp"
 
 namespace telehug {
@@ -20,6 +21,7 @@ ActivePipeline::ActivePipeline(const Calibration& calibration, AnyDetector detec
                                MetricsRegistry& metrics)
     : image_(calibration.image),
       screen_(calibration.screen),
+      rows_needed_(telehug::rows_needed(calibration)),
       upright_(calibration.image, is_upside_down(calibration)),
       camera_watch_(upright(calibration)),
       frame_check_(calibration.image, place_of(upright(calibration).border), options.frames),
@@ -45,8 +47,8 @@ ActivePipeline::ActivePipeline(const Calibration& calibration, AnyDetector detec
 
 const TouchEvent* ActivePipeline::process(const Frame& frame, const BodyMap& map, bool sending) {
   const Timestamp started = clock_.now();
-  const cv::Mat& picture = upright_.of(frame.bgr);
-  const FrameFindings findings = frame_check_.check(picture);
+  const cv::Mat& picture = upright_.of(frame.bgr, frame.rows);
+  const FrameFindings findings = frame_check_.check(picture, upright_.rows_of(frame.rows));
   const Timestamp checked = clock_.now();
   check_latency_.record(checked - started);
   count(findings);

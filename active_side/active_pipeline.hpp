@@ -41,6 +41,10 @@ class ActivePipeline {
   // There is no picture (camera lost, nobody wants it): contacts end.
   const TouchEvent* process_nothing(const BodyMap& map, bool sending);
 
+  // What is needed of the next frame: the rows in which fingers are looked for, now and then all.
+  [[nodiscard]] RowRange rows_needed() const noexcept {
+    return frame_check_.wants_whole_pictures() ? RowRange{} : rows_needed_;
+  }
   [[nodiscard]] const ContactStates& contacts() const noexcept { return *contacts_; }
   [[nodiscard]] const ScreenSize& screen() const noexcept { return screen_; }
   // Of the newest picture.
@@ -59,6 +63,7 @@ class ActivePipeline {
 
   ImageSize image_;
   ScreenSize screen_;
+  RowRange rows_needed_;
   UprightPicture upright_;
   CameraWatch camera_watch_;
   FrameCheck frame_check_;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <span>
 
 namespace telehug {
 namespace {
@@ -13,10 +14,9 @@ constexpr int white = 250;
 constexpr double nearly_all = 0.995;  // some samples may fall on hot pixels
 constexpr int clear_difference = 16;  // grey levels; well above a webcam's noise
 // Rows of samples that a torn picture shares with something that it should not; 3 of 24 are an eighth of the picture.
-constexpr int least_torn_rows = 3;
+constexpr std::size_t least_torn_rows = 3;
 // A part that differed from the picture before in so many frames on end does not stand still by chance.
 constexpr int lively_frames = 8;
-constexpr int reference_ready = 30;  // frames
 constexpr float reference_weight = 1 / 16.0F;
 constexpr double looks_alike = 0.8;  // correlation
 constexpr double looks_different = 0.5;
@@ -31,8 +31,8 @@ constexpr bool is_cut_off(std::uint8_t grey) {
 }
 
 // Correlation of two grids, -1..1; `order(i)` is the sample of b that belongs to sample i of a. 0 if one is flat.
-template <typename A, typename B, typename Order>
-double correlation(const A& a, const B& b, Order order) {
+template <typename Order>
+double correlation(std::span<const std::uint8_t> a, std::span<const float> b, Order order) {
   const auto count = static_cast<float>(a.size());
   float sum_a = 0;
   float sum_b = 0;
@@ -41,7 +41,7 @@ double correlation(const A& a, const B& b, Order order) {
   float sum_ab = 0;
   for (std::size_t i = 0; i < a.size(); ++i) {
     const auto x = static_cast<float>(a[i]);
-    const auto y = static_cast<float>(b[order(i)]);
+    const float y = b[order(i)];
     sum_a += x;
     sum_b += y;
     sum_aa += x * x;
@@ -63,19 +63,22 @@ FrameCheck::FrameCheck(ImageSize image, BorderPlace border, const FrameCheckOpti
   for (std::size_t i = 0; i < samples; ++i) {
     const int u_px = u_px_[i % columns];
     on_desk_[i] = v_px_[i / columns] < border.v0_px + border.slope * u_px;
-    desk_samples_ += on_desk_[i] ? 1 : 0;
   }
 }
 
-FrameFindings FrameCheck::check(const cv::Mat& bgr) {
+FrameFindings FrameCheck::check(const cv::Mat& bgr, RowRange filled) {
   FrameFindings findings;
   if (bgr.type() != CV_8UC3 || bgr.cols != image_.width_px || bgr.rows != image_.height_px) {
     findings.verdict = FrameVerdict::other_size;
     return findings;
   }
+  here_ = sample_rows(filled);
+  compared_.first = std::max(here_.first, before_.first);
+  compared_.end = std::max(compared_.first, std::min(here_.end, before_.end));
   sample(bgr);
   compare_rows();
-  findings.duplicate = std::ranges::all_of(same_row_, [](bool same) { return same; });
+  const auto same = std::span(same_row_).subspan(compared_.first, compared_.count());
+  findings.duplicate = !same.empty() && std::ranges::all_of(same, [](bool is_same) { return is_same; });
   duplicates_ = findings.duplicate ? duplicates_ + 1 : 0;
   findings.desk_change = desk_change();
   settling_ =
@@ -95,14 +98,24 @@ FrameFindings FrameCheck::check(const cv::Mat& bgr) {
   if (findings.verdict == FrameVerdict::good) follow_reference();
   colours_before_ = colours_;
   greys_before_ = greys_;
-  has_before_ = true;
+  before_ = here_;
   return findings;
 }
 
+FrameCheck::SampleRows FrameCheck::sample_rows(RowRange picture_rows) const {
+  SampleRows found;
+  while (found.first < rows && v_px_[found.first] < picture_rows.first)
+    ++found.first;
+  found.end = found.first;
+  while (found.end < rows && v_px_[found.end] < picture_rows.end)
+    ++found.end;
+  return found;
+}
+
 void FrameCheck::sample(const cv::Mat& bgr) {
-  std::size_t i = 0;
-  for (const int v_px : v_px_) {
-    const auto* row = bgr.ptr<cv::Vec3b>(v_px);
+  std::size_t i = here_.first * columns;
+  for (std::size_t r = here_.first; r < here_.end; ++r) {
+    const auto* row = bgr.ptr<cv::Vec3b>(v_px_[r]);
     for (const int u_px : u_px_) {
       const cv::Vec3b colour = row[u_px];
       colours_[i] = packed(colour);
@@ -113,60 +126,78 @@ void FrameCheck::sample(const cv::Mat& bgr) {
 }
 
 bool FrameCheck::is_blank() const {
-  const auto share_of = [](auto count) { return static_cast<double>(count) / samples; };
-  return share_of(std::ranges::count_if(greys_, [](auto grey) { return grey <= black; })) >= nearly_all ||
-         share_of(std::ranges::count_if(greys_, [](auto grey) { return grey >= white; })) >= nearly_all ||
-         share_of(std::ranges::count(colours_, colours_[samples / 2])) >= nearly_all;
+  const auto greys = std::span(greys_).subspan(here_.first * columns, here_.count() * columns);
+  const auto colours = std::span(colours_).subspan(here_.first * columns, greys.size());
+  if (greys.empty()) return false;
+  const auto nearly_everywhere = [&](auto count) {
+    return static_cast<double>(count) >= nearly_all * static_cast<double>(greys.size());
+  };
+  return nearly_everywhere(std::ranges::count_if(greys, [](auto grey) { return grey <= black; })) ||
+         nearly_everywhere(std::ranges::count_if(greys, [](auto grey) { return grey >= white; })) ||
+         nearly_everywhere(std::ranges::count(colours, colours[colours.size() / 2]));
 }
 
 void FrameCheck::compare_rows() {
-  for (std::size_t row = 0; row < rows; ++row) {
+  for (std::size_t row = compared_.first; row < compared_.end; ++row) {
     const auto* first = colours_.data() + row * columns;
-    same_row_[row] = has_before_ && std::equal(first, first + columns, colours_before_.data() + row * columns);
+    same_row_[row] = std::equal(first, first + columns, colours_before_.data() + row * columns);
   }
 }
 
 bool FrameCheck::is_torn() const {
   // Filled with one colour from some row on.
-  int filled = 0;
-  const std::uint32_t filling = colours_.back();
-  while (filled < rows) {
-    const auto* first = colours_.data() + (rows - 1 - filled) * columns;
+  if (here_.count() == 0) return false;
+  std::size_t filled = 0;
+  const std::size_t last = here_.end * columns - 1;
+  const std::uint32_t filling = colours_[last];
+  while (filled < here_.count()) {
+    const auto* first = colours_.data() + (here_.end - 1 - filled) * columns;
     if (!std::all_of(first, first + columns, [&](std::uint32_t colour) { return colour == filling; })) break;
     ++filled;
   }
-  if (filled >= least_torn_rows && !is_cut_off(greys_.back())) return true;
+  if (filled >= least_torn_rows && !is_cut_off(greys_[last])) return true;
 
   // Part of it still shows the picture before, although that part is alive and the other part has changed.
   const auto stands_still = [&](std::size_t row) { return same_row_[row] && lively_for_[row] >= lively_frames; };
+  const std::size_t count = compared_.count();
   std::size_t above = 0;
-  while (above < rows && stands_still(above))
+  while (above < count && stands_still(compared_.first + above))
     ++above;
   std::size_t below = 0;
-  while (below < rows && stands_still(rows - 1 - below))
+  while (below < count && stands_still(compared_.end - 1 - below))
     ++below;
-  const auto changed = static_cast<std::size_t>(std::ranges::count(same_row_, false));
+  const auto changed =
+      static_cast<std::size_t>(std::ranges::count(std::span(same_row_).subspan(compared_.first, count), false));
   const std::size_t old = std::max(above, below);
-  return old >= least_torn_rows && old < rows && 2 * changed > rows - old;
+  return old >= least_torn_rows && old < count && 2 * changed > count - old;
 }
 
 void FrameCheck::follow_rows() {
-  for (std::size_t row = 0; row < rows; ++row)
-    lively_for_[row] = same_row_[row] ? 0 : std::min(lively_for_[row] + 1, lively_frames);
+  for (std::size_t row = 0; row < rows; ++row) {
+    const bool changed = row >= compared_.first && row < compared_.end && !same_row_[row];
+    lively_for_[row] = changed ? std::min(lively_for_[row] + 1, lively_frames) : 0;
+  }
 }
 
 double FrameCheck::desk_change() const {
-  if (!has_before_ || desk_samples_ == 0) return 0;
   int changed = 0;
-  for (std::size_t i = 0; i < samples; ++i)
+  int desk_samples = 0;
+  for (std::size_t i = compared_.first * columns; i < compared_.end * columns; ++i) {
+    desk_samples += on_desk_[i] ? 1 : 0;
     changed += on_desk_[i] && std::abs(greys_[i] - greys_before_[i]) > clear_difference ? 1 : 0;
-  return static_cast<double>(changed) / desk_samples_;
+  }
+  return desk_samples > 0 ? static_cast<double>(changed) / desk_samples : 0;
 }
 
 bool FrameCheck::is_turned() {
   if (reference_frames_ < reference_ready) return false;
-  const double upright = correlation(greys_, reference_, [](std::size_t i) { return i; });
-  if (upright >= looks_different && !turned_) return false;
+  const std::size_t first = here_.first * columns;
+  const std::size_t count = here_.count() * columns;
+  const double upright = correlation(std::span(greys_).subspan(first, count),
+                                     std::span(reference_).subspan(first, count), [](std::size_t i) { return i; });
+  looks_different_ = turned_ || upright < looks_different;
+  if (!looks_different_) return false;
+  if (here_.count() < rows) return turned_;
   const auto mirrored = [](std::size_t i) { return i / columns * columns + columns - 1 - i % columns; };
   const double best =
       std::max({correlation(greys_, reference_, [](std::size_t i) { return samples - 1 - i; }),
@@ -178,9 +209,9 @@ bool FrameCheck::is_turned() {
 
 void FrameCheck::follow_reference() {
   const float weight = reference_frames_ == 0 ? 1.0F : reference_weight;
-  for (std::size_t i = 0; i < samples; ++i)
+  for (std::size_t i = here_.first * columns; i < here_.end * columns; ++i)
     reference_[i] += weight * (static_cast<float>(greys_[i]) - reference_[i]);
-  reference_frames_ = std::min(reference_frames_ + 1, reference_ready);
+  if (here_.count() == rows) reference_frames_ = std::min(reference_frames_ + 1, reference_ready);
 }
 
 }  // namespace telehug

@@ -6,6 +6,7 @@
 #include "capture/frame.hpp"
 #include "common/clock.hpp"
 #include "common/result.hpp"
+#include "common/row_range.hpp"
 #include "common/units.hpp"
 
 namespace telehug {
@@ -30,6 +31,10 @@ class FrameSource {
   virtual void close() = 0;
 
   [[nodiscard]] virtual bool is_open() const = 0;
+
+  // From the next read() on only these rows are needed, until other ones are; at first all are. A source to which that
+  // saves work may leave the others as they are in the frame; Frame::rows tells which it filled. Costs nothing.
+  virtual void need_rows(RowRange /*rows*/) {}
 
   // Waits at most `timeout` for the next picture and fills `frame`, whose buffer is reused. Never throws; never blocks
   // longer. After `lost` the source looks for its device again by itself (at most every 500 ms).

@@ -93,10 +93,11 @@ ReadOutcome Recording::read(Frame& frame, Duration timeout) {
   const std::size_t index = next_++;
   const RigFrame& picture = frames_[index % frames_.size()];
   frame_name_ = picture.name;
-  if (const Status read = reader_.read(picture.picture, frame.bgr); !read) {
+  if (const Status read = reader_.read(picture.picture, frame.bgr, rows_); !read) {
     last_error_ = read.error().message;
     return ReadOutcome::broken;
   }
+  frame.rows = rows_;
   frame.sequence = first_sequence_ + index;
   frame.time = due(index);
   return ReadOutcome::frame;

@@ -31,6 +31,7 @@ class Recording final : public FrameSource {
   Status open() override;
   void close() override;
   [[nodiscard]] bool is_open() const override { return open_; }
+  void need_rows(RowRange rows) override { rows_ = rows; }
   ReadOutcome read(Frame& frame, Duration timeout) override;
   [[nodiscard]] std::string last_error() const override { return last_error_; }
   [[nodiscard]] std::string name() const override;
@@ -53,6 +54,7 @@ class Recording final : public FrameSource {
   std::vector<Duration> offsets_;  // from the first frame
   Duration period_{};              // from the last frame to the first of the next round
   ImageSize size_;
+  RowRange rows_;  // that are needed
   bool open_ = false;
   bool wanted_ = false;
   Timestamp start_;

@@ -9,10 +9,10 @@
 #include <cerrno>
 #include <cmath>
 #include <cstring>
-#include <opencv2/imgproc.hpp>
 #include <utility>
 
 #include "capture/webcam_device.hpp"
+#include "capture/yuyv.hpp"
 
 namespace telehug {
 namespace {
@@ -252,7 +252,7 @@ ReadOutcome Webcam::decode(const Picture& picture, Frame& frame) {
   if (picture.damaged) return broken("the driver says that a picture was damaged on its way");
   const std::span<const std::uint8_t> bytes(buffers_[picture.index].data, picture.bytes);
   if (pixel_format_ == V4L2_PIX_FMT_MJPEG) {
-    if (const Status decoded = jpeg_.decode(bytes, frame.bgr); !decoded) return broken(decoded.error().message);
+    if (const Status decoded = jpeg_.decode(bytes, frame.bgr, rows_); !decoded) return broken(decoded.error().message);
     if (frame.bgr.cols != size_.width_px || frame.bgr.rows != size_.height_px) {
       ++odd_sizes_;
       return broken(fmt::format("a picture of {}x{} pixels came", frame.bgr.cols, frame.bgr.rows));
@@ -262,9 +262,10 @@ ReadOutcome Webcam::decode(const Picture& picture, Frame& frame) {
     if (bytes.size() < needed)
       return broken(fmt::format("a picture of {} instead of {} bytes came", bytes.size(), needed));
     const cv::Mat yuyv(size_.height_px, size_.width_px, CV_8UC2, buffers_[picture.index].data, bytes_per_line_);
-    cv::cvtColor(yuyv, frame.bgr, cv::COLOR_YUV2BGR_YUYV);
+    convert_yuyv(yuyv, frame.bgr, rows_);
   }
   odd_sizes_ = 0;
+  frame.rows = rows_;
   frame.sequence = sequence_;
   frame.time = picture.time;
   return ReadOutcome::frame;

@@ -36,6 +36,7 @@ class Webcam final : public FrameSource {
   Status open() override;
   void close() override;
   [[nodiscard]] bool is_open() const override { return fd_ >= 0; }
+  void need_rows(RowRange rows) override { rows_ = rows; }
   ReadOutcome read(Frame& frame, Duration timeout) override;
   [[nodiscard]] std::string last_error() const override { return last_error_; }
   [[nodiscard]] std::string name() const override { return "webcam " + settings_.device; }
@@ -93,6 +94,7 @@ class Webcam final : public FrameSource {
   std::uint32_t pixel_format_ = 0;
   std::uint32_t bytes_per_line_ = 0;
   ImageSize size_;
+  RowRange rows_;  // that are needed
   std::string mode_;
   std::uint32_t driver_sequence_ = 0;
   bool first_since_start_ = true;

@@ -84,10 +84,15 @@ struct JpegDecoder::State {
     codec.out_color_space = JCS_EXT_BGR;
     return true;
   }
-  bool read_rows(cv::Mat& bgr) {
+  // The data of skipped rows are still read, code by code, since only that tells where the next row begins; but they
+  // become no pixels.
+  bool read_rows(cv::Mat& bgr, RowRange rows) {
     if (setjmp(client.failed) != 0) return false;
     jpeg_start_decompress(&codec);
-    while (codec.output_scanline < codec.output_height) {
+    const auto block_rows = static_cast<JDIMENSION>(codec.max_v_samp_factor * DCTSIZE);
+    const auto skipped = static_cast<JDIMENSION>(rows.first) / block_rows * block_rows;
+    if (skipped > 0) jpeg_skip_scanlines(&codec, skipped);
+    while (codec.output_scanline < static_cast<JDIMENSION>(rows.end)) {
       JSAMPROW row = bgr.ptr(static_cast<int>(codec.output_scanline));
       jpeg_read_scanlines(&codec, &row, 1);
     }
@@ -107,7 +112,7 @@ JpegDecoder::~JpegDecoder() = default;
 JpegDecoder::JpegDecoder(JpegDecoder&&) noexcept = default;
 JpegDecoder& JpegDecoder::operator=(JpegDecoder&&) noexcept = default;
 
-Status JpegDecoder::decode(std::span<const std::uint8_t> jpeg, cv::Mat& bgr) {
+Status JpegDecoder::decode(std::span<const std::uint8_t> jpeg, cv::Mat& bgr, RowRange rows) {
   if (jpeg.empty()) return Error{"damaged JPEG picture: it is empty"};
   if (!state_->read_header(jpeg)) return state_->reason();
   const jpeg_decompress_struct& codec = state_->codec;
@@ -115,8 +120,13 @@ Status JpegDecoder::decode(std::span<const std::uint8_t> jpeg, cv::Mat& bgr) {
     return Error{fmt::format("JPEG picture of {}x{} pixels; at most {} a side are read", codec.image_width,
                              codec.image_height, max_side_px)};
   }
-  bgr.create(static_cast<int>(codec.image_height), static_cast<int>(codec.image_width), CV_8UC3);
-  if (!state_->read_rows(bgr)) return state_->reason();
+  const cv::Size size(static_cast<int>(codec.image_width), static_cast<int>(codec.image_height));
+  rows = rows.within(size.height);
+  if (bgr.size() != size || bgr.type() != CV_8UC3) {
+    bgr.create(size, CV_8UC3);
+    if (rows.count() < size.height) bgr.setTo(cv::Scalar::all(0));
+  }
+  if (rows.count() > 0 && !state_->read_rows(bgr, rows)) return state_->reason();
   return Done{};
 }
 

@@ -7,6 +7,7 @@
 #include <span>
 
 #include "common/result.hpp"
+#include "common/row_range.hpp"
 
 namespace telehug {
 
@@ -21,9 +22,12 @@ class JpegDecoder {
   JpegDecoder(JpegDecoder&&) noexcept;
   JpegDecoder& operator=(JpegDecoder&&) noexcept;
 
-  // Fills `bgr` (CV_8UC3), whose memory is kept if its size fits. A damaged or cut-off picture is an error, and `bgr`
-  // then holds no picture. Pictures of more than 8192 pixels a side are refused.
-  Status decode(std::span<const std::uint8_t> jpeg, cv::Mat& bgr);
+  // Fills `rows` of `bgr` (CV_8UC3 of the picture's full size, whose memory is kept if its size fits), the same to the
+  // bit as all rows would be filled. The other rows keep what they held (black, if the memory is new), but for some
+  // next to `rows` that are filled as well. A picture that is damaged or cut off before the last of `rows` is an error,
+  // and `bgr` then holds no picture; what comes after it is not looked at. Pictures of more than 8192 pixels a side are
+  // refused.
+  Status decode(std::span<const std::uint8_t> jpeg, cv::Mat& bgr, RowRange rows = {});
 
  private:
   struct State;

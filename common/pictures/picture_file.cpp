@@ -88,13 +88,13 @@ Status write_file(const std::filesystem::path& path, std::span<const std::uint8_
 
 }  // namespace
 
-Status PictureReader::read(const std::filesystem::path& path, cv::Mat& bgr) {
+Status PictureReader::read(const std::filesystem::path& path, cv::Mat& bgr, RowRange rows) {
   if (auto read = read_bytes(path, bytes_); !read) return read;
   Status decoded = Error{"neither a JPEG nor a PNG picture"};
   if (bytes_.size() >= 8 && png_sig_cmp(bytes_.data(), 0, 8) == 0) {
     decoded = decode_png(bytes_, bgr);
   } else if (bytes_.size() >= 2 && bytes_[0] == 0xFF && bytes_[1] == 0xD8) {
-    decoded = jpeg_.decode(bytes_, bgr);
+    decoded = jpeg_.decode(bytes_, bgr, rows);
   }
   if (!decoded) return Error{fmt::format("{}: {}", path.string(), decoded.error().message)};
   return Done{};

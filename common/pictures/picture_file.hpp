@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "common/result.hpp"
+#include "common/row_range.hpp"
 #include "pictures/jpeg_decoder.hpp"
 #include "pictures/png_note.hpp"
 
@@ -18,8 +19,9 @@ namespace telehug {
 // Reads JPEG and PNG files one after the other with buffers that are kept. Not for use by two threads at a time.
 class PictureReader {
  public:
-  // As read_picture(), into `bgr`, whose memory is kept if its size fits. After an error it holds no picture.
-  Status read(const std::filesystem::path& path, cv::Mat& bgr);
+  // As read_picture(), into `bgr`, whose memory is kept if its size fits. After an error it holds no picture. Of a JPEG
+  // only `rows` need be filled, see JpegDecoder::decode().
+  Status read(const std::filesystem::path& path, cv::Mat& bgr, RowRange rows = {});
 
  private:
   JpegDecoder jpeg_;

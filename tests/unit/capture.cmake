@@ -1,10 +1,11 @@
 # SPDX-License-Identifier: Apache-2.0
 telehug_test(test_pictures KIND unit SUBJECT touch
-  SOURCES unit/pictures/jpeg_decoder_test.cpp unit/pictures/picture_file_test.cpp
-  DEPS telehug_pictures fmt::fmt)
+  SOURCES doubles/allocation_counter.cpp unit/pictures/jpeg_decoder_test.cpp unit/pictures/jpeg_rows_test.cpp
+    unit/pictures/picture_file_test.cpp
+  DEPS telehug_pictures PkgConfig::libjpeg fmt::fmt)
 telehug_test(test_capture KIND unit SUBJECT touch
   SOURCES unit/capture/camera_setup_test.cpp unit/capture/camera_tuning_test.cpp
-    unit/capture/frame_check_test.cpp doubles/allocation_counter.cpp
+    unit/capture/frame_check_rows_test.cpp unit/capture/frame_check_test.cpp doubles/allocation_counter.cpp
     unit/capture/make_frame_source_test.cpp unit/capture/recording_test.cpp unit/capture/rig_directory_test.cpp
     unit/capture/webcam_test.cpp
   DEPS active_capture fmt::fmt)

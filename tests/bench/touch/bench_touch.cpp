@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // How long a frame takes on the touch path, stage by stage, and what it takes from the heap: the default algorithm at
-// two sizes of the picture and with one finger and five, beside the thesis' algorithm and the decoding of a frame.
+// two sizes of the picture and with one finger and five, from decoded pictures and from MJPEG, beside the thesis'
+// algorithm and the decoding of a whole frame.
 //   bench_touch [--json FILE]
 // p10 is the figure to compare variants by on a PC that does other things as well.
 #include <fmt/format.h>
@@ -72,6 +73,7 @@ void run(const std::string& json_file) {
   add(measure_default({1280, 720}, 1, "_1280x720"));
   add(measure_default({1920, 1080}, 1, "_1920x1080"));
   add(measure_default({1280, 720}, 5, "_1280x720.five_fingers"));
+  add(measure_default({1920, 1080}, 5, "_1920x1080.five_fingers"));
   add(measure_thesis(TELEHUG_FIXTURES "/rig2"));
   add({measure_jpeg(TELEHUG_FIXTURES "/rig2/background.jpg")});
   if (!allocations_are_counted()) {

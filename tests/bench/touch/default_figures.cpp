@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "bench/touch/detector_stages.hpp"
+#include "bench/touch/mjpeg_figures.hpp"
 #include "bench/touch/touch_path.hpp"
 #include "calibration/border_curve.hpp"
 #include "calibration/rig_camera.hpp"
@@ -76,6 +77,8 @@ Figures measure_default(ImageSize image, int fingers, const std::string& suffix)
 
   Figures figures = measure_path(detector, touched, "", suffix);
   for (Figure& figure : measure_stages(border, camera, empty, touched.pictures, suffix))
+    figures.push_back(std::move(figure));
+  for (Figure& figure : measure_mjpeg(detector, border, touched, suffix))
     figures.push_back(std::move(figure));
   return figures;
 }

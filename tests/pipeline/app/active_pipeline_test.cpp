@@ -9,6 +9,7 @@
 
 #include "body_map/vitruvian_grid.hpp"
 #include "detection/make_detector.hpp"
+#include "detection/rows_needed.hpp"
 #include "doubles/allocation_counter.hpp"
 #include "doubles/drawn_finger.hpp"
 #include "doubles/example_messages.hpp"
@@ -354,6 +355,38 @@ TEST_F(WatchedCamera, SeesTheSameUpsideDown) {
   ASSERT_NE(event, nullptr);
   EXPECT_EQ(event->contacts.at(0).screen.x_mm, upright.x_mm);
   EXPECT_EQ(event->contacts.at(0).screen.y_mm, upright.y_mm);
+}
+
+TEST_F(WatchedCamera, SeesTheSameInTheRowsThatAreNeeded) {
+  Calibration turned = calibration();
+  auto& camera = std::get<RigCalibration>(turned.solved).solution.model.camera;
+  camera = RigCamera(camera.parameters(), image, {.left_right_exchanged = false, .top_bottom_exchanged = true});
+  turned.border = border_line(camera, screen);
+  ActivePipeline upside_down = pipeline_with(detector_of(turned, "default", nobody()), turned);
+  const ScreenPoint whole = see(touching())->contacts.at(0).screen;
+  for (const bool flipped : {false, true}) {
+    ActivePipeline& seeing = flipped ? upside_down : watched;
+    cv::Mat held = cv::Mat::zeros(image.height_px, image.width_px, CV_8UC3);
+    const auto see_rows = [&](const cv::Mat& picture) {
+      cv::Mat delivered = picture.clone();
+      if (flipped) cv::flip(picture, delivered, 0);
+      frame.rows = seeing.rows_needed();
+      const RowRange rows = frame.rows.within(image.height_px);
+      delivered.rowRange(rows.first, rows.end).copyTo(held.rowRange(rows.first, rows.end));
+      map.seen = clock.now();
+      return see_with(seeing, held);
+    };
+    EXPECT_EQ(seeing.rows_needed(), RowRange{}) << "until it is known how good pictures look";
+    for (int i = 0; i < 40; ++i)
+      see_rows(nobody());
+    EXPECT_EQ(seeing.rows_needed(), rows_needed(flipped ? turned : calibration()));
+    EXPECT_EQ(seeing.rows_needed().count(), 416);
+    const TouchEvent* event = see_rows(touching());
+    ASSERT_NE(event, nullptr);
+    ASSERT_EQ(event->contacts.size(), 1U);
+    EXPECT_NEAR(event->contacts[0].screen.x_mm, whole.x_mm, 0.5);
+    EXPECT_NEAR(event->contacts[0].screen.y_mm, whole.y_mm, 0.5);
+  }
 }
 
 TEST_F(WatchedCamera, IsTrustedWhileItStands) {

@@ -157,6 +157,26 @@ TEST_F(ARecording, ThatCantBeReadIsLookedForAgainEvery500Ms) {
   EXPECT_EQ(clock_.now() - begin_, 500ms);
 }
 
+TEST_F(ARecording, FillsOnlyTheRowsOfAJpegThatAreNeeded) {
+  const TemporaryFolder jpegs;
+  for (const char* const name : {"1.jpg", "2.jpg"})
+    ASSERT_TRUE(write_jpeg(jpegs / name, plain_picture(64, 64, {200, 200, 200})));
+  RecordingSettings settings;
+  settings.folder = jpegs.path();
+  settings.real_time = false;
+  Recording source(settings, clock_);
+  ASSERT_TRUE(source.open());
+  source.need_rows({32, 48});
+  ASSERT_EQ(source.read(frame_, 1s), ReadOutcome::frame);
+  EXPECT_EQ(frame_.rows, (RowRange{32, 48}));
+  EXPECT_EQ(frame_.bgr.at<cv::Vec3b>(16, 16)[0], 0);
+  EXPECT_NEAR(frame_.bgr.at<cv::Vec3b>(40, 16)[0], 200, 3);
+  source.need_rows({});
+  ASSERT_EQ(source.read(frame_, 1s), ReadOutcome::frame);
+  EXPECT_EQ(frame_.rows, RowRange{});
+  EXPECT_NEAR(frame_.bgr.at<cv::Vec3b>(16, 16)[0], 200, 3);
+}
+
 TEST_F(ARecording, MayBeAPlainFolderOfPicturesAt30FramesASecond) {
   std::filesystem::remove(folder_ / "sequence/times.csv");
   RecordingSettings settings;

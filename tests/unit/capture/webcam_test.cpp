@@ -79,6 +79,41 @@ TEST_F(AWebcam, FallsBackToYuyvAndConvertsItsColours) {
   EXPECT_TRUE(colour_near(frame_.bgr.at<cv::Vec3b>(70, 101), 0, 0, 0));
 }
 
+TEST_F(AWebcam, FillsOnlyTheRowsThatAreNeededUntilAllAreAgain) {
+  for (const std::uint32_t format : {V4L2_PIX_FMT_MJPEG, V4L2_PIX_FMT_YUYV}) {
+    device_.formats = {format};
+    ASSERT_TRUE(webcam_.open());
+    const auto picture = [&](uchar grey) {
+      return format == V4L2_PIX_FMT_MJPEG ? jpeg_of(plain_picture(128, 72, {grey, grey, grey}))
+                                          : std::vector<std::uint8_t>(std::size_t{2 * 128 * 72}, grey);
+    };
+    ASSERT_EQ(read_one(picture(128)), ReadOutcome::frame);
+    EXPECT_EQ(frame_.rows, RowRange{});
+    const cv::Mat before = frame_.bgr.clone();
+    webcam_.need_rows({48});
+    ASSERT_EQ(read_one(picture(30)), ReadOutcome::frame);
+    EXPECT_EQ(frame_.rows, RowRange{48});
+    EXPECT_EQ(cv::norm(frame_.bgr.rowRange(0, 48), before.rowRange(0, 48), cv::NORM_INF), 0);
+    EXPECT_GT(cv::norm(frame_.bgr.row(48), before.row(48), cv::NORM_INF), 50);
+    EXPECT_GT(cv::norm(frame_.bgr.row(71), before.row(71), cv::NORM_INF), 50);
+    webcam_.need_rows({});
+    ASSERT_EQ(read_one(picture(30)), ReadOutcome::frame);
+    EXPECT_EQ(frame_.rows, RowRange{});
+    EXPECT_GT(cv::norm(frame_.bgr.row(0), before.row(0), cv::NORM_INF), 50);
+    webcam_.close();
+  }
+}
+
+TEST_F(AWebcam, CountsAPictureThatIsDamagedInTheRowsThatAreNeeded) {
+  ASSERT_TRUE(webcam_.open());
+  webcam_.need_rows({48});
+  auto cut = jpeg_of(sloping_picture(128, 72));
+  cut.resize(cut.size() - 20);
+  EXPECT_EQ(read_one(cut), ReadOutcome::broken);
+  EXPECT_EQ(read_one(jpeg()), ReadOutcome::frame);
+  EXPECT_EQ(webcam_.broken_frames(), 1u);
+}
+
 TEST_F(AWebcam, TakesTheNearestSizeAndSaysSo) {
   device_.sizes = {{64, 48}};
   device_.fps = 15;

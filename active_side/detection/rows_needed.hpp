@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "calibration/calibration.hpp"
+#include "common/row_range.hpp"
+#include "common/units.hpp"
+
+namespace telehug {
+
+// The rows of upright pictures in which a detector looks for fingers: from some way in front of the screen's bottom
+// edge, where a finger comes from, over all of the screen.
+[[nodiscard]] RowRange rows_needed(const BorderCurve& border, ImageSize image);
+
+// The same in pictures as the calibration's camera delivers them, be it upside down.
+[[nodiscard]] RowRange rows_needed(const Calibration& calibration);
+
+}  // namespace telehug
