@@ -13,8 +13,6 @@ namespace {
 
 constexpr int least_width_px = 320;
 constexpr int least_height_px = 180;
-constexpr double usual_px_per_mm = 3.3;  // at the screen's bottom edge, in pictures of 1280 columns
-
 constexpr double least_overview_logit = -1;  // a tip that is looked at more closely
 constexpr double least_present_logit = 0;
 constexpr int most_looks = 3;
@@ -25,16 +23,6 @@ ImageSize checked(ImageSize image) {
     throw std::invalid_argument("pictures of this size are too small to look for fingers");
   }
   return image;
-}
-
-double scale_of(const std::optional<RigCamera>& camera, ImageSize image, const ImagePoint& place) {
-  const auto measured = camera ? px_per_mm_at(*camera, place) : std::nullopt;
-  return std::clamp(measured.value_or(usual_px_per_mm * image.width_px / 1280), 0.5, 50.0);
-}
-
-ImagePoint middle_of_border(const BorderCurve& border, ImageSize image) {
-  const double u = image.width_px / 2.0;
-  return {u, border.v_at(u)};
 }
 
 MirrorEvidence evidence(const TipLook& look) {
@@ -57,12 +45,12 @@ FingerDetector::FingerDetector(const BorderCurve& border, ImageSize image, const
       strip_(layout_),
       background_(layout_, background.value_or(BorderStrip(layout_))),
       learner_(layout_, background.has_value()),
-      overview_(border, layout_, scale_of(camera, image, middle_of_border(border, image))),
+      overview_(border, layout_, px_per_mm_at_border(camera, border, image)),
       overview_net_(overview_.rows(), overview_.tile_columns()),
       is_finger_(static_cast<std::size_t>(layout_.columns), false) {}
 
 double FingerDetector::px_per_mm(const ImagePoint& place) const {
-  return scale_of(camera_, image_, place);
+  return px_per_mm_at(camera_, image_, place);
 }
 
 const Fingers& FingerDetector::detect(const cv::Mat& bgr) {

@@ -31,19 +31,27 @@ int rail_at(double offset_px) {
   return std::clamp(8 + static_cast<int>(std::lround((offset_px - 23) / 6)), 8, BorderStrip::rails - 1);
 }
 
+int cell_px_of(double px_per_mm) {
+  return std::clamp(static_cast<int>(std::lround(Overview::cell_mm * px_per_mm)), 1, most_cell_px);
+}
+
 }  // namespace
 
+int Overview::first_row_px(const BorderCurve& border, ImageSize image, double px_per_mm) {
+  double highest_px = image.height_px;
+  for (int u = 0; u < image.width_px; ++u)
+    highest_px = std::min(highest_px, border.v_at(u));
+  const int in_front_px = static_cast<int>(std::lround(in_front_mm / cell_mm)) * cell_px_of(px_per_mm);
+  return std::clamp(static_cast<int>(highest_px) - in_front_px, 0, image.height_px);
+}
+
 Overview::Overview(const BorderCurve& border, const BorderStrip::Layout& strip, double px_per_mm)
-    : cell_px_(std::clamp(static_cast<int>(std::lround(cell_mm * px_per_mm)), 1, most_cell_px)),
+    : cell_px_(cell_px_of(px_per_mm)),
+      first_row_px_(first_row_px(border, strip.image, px_per_mm)),
       cells_of_strip_(std::max(1, cell_px_ / strip.column_px)) {
   const ImageSize& image = strip.image;
   columns_ = image.width_px / cell_px_;
   tile_columns_ = std::min(columns_, usual_tile_columns);
-  double highest = image.height_px;
-  for (int u = 0; u < image.width_px; ++u)
-    highest = std::min(highest, border.v_at(u));
-  const int in_front_px = static_cast<int>(std::lround(in_front_mm / cell_mm)) * cell_px_;
-  first_row_px_ = std::clamp(static_cast<int>(highest) - in_front_px, 0, image.height_px);
   rows_ = (image.height_px - first_row_px_) / cell_px_;
   if (columns_ < least_cells || rows_ < least_cells) {
     throw std::invalid_argument("too little of the screen is in the picture to look for fingers");
@@ -89,12 +97,21 @@ const Overview::Tiles& Overview::tiles(const std::vector<float>& distance) {
   return tiles_;
 }
 
-// `Width` is a cell's, or 0 for cell_px_: known widths take half the time.
+// One row of cells from `cell_px` rows of pixels, whose first is at `pixels`. `Width` is cell_px, or 0 for any: known
+// widths take half the time.
 template <int Width>
-void Overview::average_row(int column_count, float* cells) const {
+void Overview::average_row(const std::uint8_t* pixels, std::size_t row_bytes, int column_count, float* cells) {
   const int width = Width > 0 ? Width : cell_px_;
-  const float scale = 1 / (127.5F * static_cast<float>(cell_px_ * cell_px_));
-  const unsigned short* sum = sums_.data();
+  const auto bytes = static_cast<std::size_t>(column_count * width) * 3;
+  unsigned short* const sums = sums_.data();
+  for (std::size_t k = 0; k < bytes; ++k) {
+    unsigned sum = 0;
+    for (int i = 0; i < width; ++i)
+      sum += pixels[static_cast<std::size_t>(i) * row_bytes + k];
+    sums[k] = static_cast<unsigned short>(sum);
+  }
+  const float scale = 1 / (127.5F * static_cast<float>(width * width));
+  const unsigned short* sum = sums;
   for (int column = 0; column < column_count; ++column, cells += channels) {
     unsigned b = 0;
     unsigned g = 0;
@@ -111,34 +128,27 @@ void Overview::average_row(int column_count, float* cells) const {
 }
 
 void Overview::sample(const cv::Mat& bgr, int first_column, int column_count, float* cells) {
-  const auto width = static_cast<std::size_t>(column_count * cell_px_) * 3;
-  unsigned short* const sums = sums_.data();
   const auto first_byte = static_cast<std::ptrdiff_t>(first_column) * cell_px_ * 3;
   for (int row = 0; row < rows_; ++row, cells += static_cast<std::size_t>(column_count) * channels) {
-    std::fill_n(sums, width, static_cast<unsigned short>(0));
-    for (int i = 0; i < cell_px_; ++i) {
-      const auto* const pixels = bgr.ptr<std::uint8_t>(first_row_px_ + row * cell_px_ + i) + first_byte;
-      for (std::size_t k = 0; k < width; ++k)
-        sums[k] = static_cast<unsigned short>(sums[k] + pixels[k]);
-    }
+    const auto* const pixels = bgr.ptr<std::uint8_t>(first_row_px_ + row * cell_px_) + first_byte;
     switch (cell_px_) {
       case 4:
-        average_row<4>(column_count, cells);
+        average_row<4>(pixels, bgr.step[0], column_count, cells);
         break;
       case 5:
-        average_row<5>(column_count, cells);
+        average_row<5>(pixels, bgr.step[0], column_count, cells);
         break;
       case 6:
-        average_row<6>(column_count, cells);
+        average_row<6>(pixels, bgr.step[0], column_count, cells);
         break;
       case 7:
-        average_row<7>(column_count, cells);
+        average_row<7>(pixels, bgr.step[0], column_count, cells);
         break;
       case 8:
-        average_row<8>(column_count, cells);
+        average_row<8>(pixels, bgr.step[0], column_count, cells);
         break;
       default:
-        average_row<0>(column_count, cells);
+        average_row<0>(pixels, bgr.step[0], column_count, cells);
         break;
     }
     const std::size_t start = cell(row, first_column);

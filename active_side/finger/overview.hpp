@@ -6,6 +6,7 @@
 
 #include <boost/container/static_vector.hpp>
 #include <cstddef>
+#include <cstdint>
 #include <opencv2/core/mat.hpp>
 #include <vector>
 
@@ -27,6 +28,9 @@ class Overview {
   // `px_per_mm`: of the picture at the middle of the screen's bottom edge, > 0. Throws std::invalid_argument if the
   // picture has too few cells.
   Overview(const BorderCurve& border, const BorderStrip::Layout& strip, double px_per_mm);
+
+  // The picture's first row that is looked at.
+  [[nodiscard]] static int first_row_px(const BorderCurve& border, ImageSize image, double px_per_mm);
 
   // With the result of BackgroundStrip::distance(): the first columns of tiles in which all that differs from the
   // background lies, each far enough from the tile's sides. Allocates nothing.
@@ -57,7 +61,7 @@ class Overview {
     return static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) + static_cast<std::size_t>(column);
   }
   template <int Width>
-  void average_row(int column_count, float* cells) const;
+  void average_row(const std::uint8_t* pixels, std::size_t row_bytes, int column_count, float* cells);
 
   int cell_px_;
   int first_row_px_ = 0;

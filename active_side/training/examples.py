@@ -12,11 +12,11 @@ TIP_COLUMN, TIP_ROW = 32, 32  # where a patch is laid so that the tip is there
 EDGE_REACH_CELLS = 16
 
 
-def read(path):
-    """Overviews [(rig, cells, edge, tips)] and patches [(rig, numbers, pixels)] of a file."""
+def read(path, which):
+    """Of a file: its overviews (rig, cells, edge, tips) if `which` is 0, its patches (rig, numbers, pixels) if 1."""
     data = np.fromfile(path, dtype=np.uint8)
     view = memoryview(data)
-    at, overviews, patches = 0, [], []
+    at, found = 0, []
     while at < len(data):
         magic, rig, columns, rows, tips, count = struct.unpack_from("<IIHHHH", view, at)
         assert magic == 0x54485542
@@ -27,14 +27,17 @@ def read(path):
         at += 4 * columns
         tip_rows = np.frombuffer(view, "<f4", 6 * tips, at).reshape(tips, 6)
         at += 24 * tips
-        overviews.append((rig, cells, edge, tip_rows))
+        if which == 0:
+            found.append((rig, cells.copy(), edge.copy(), tip_rows.copy()))
         for _ in range(count):
             numbers = np.frombuffer(view, "<f4", 8, at)
             at += 32
             size = CANVAS_COLUMNS * CANVAS_ROWS * 3
-            patches.append((rig, numbers, data[at:at + size].reshape(CANVAS_ROWS, CANVAS_COLUMNS, 3)))
+            if which == 1:
+                pixels = data[at:at + size].reshape(CANVAS_ROWS, CANVAS_COLUMNS, 3)
+                found.append((rig, numbers.copy(), pixels.copy()))
             at += size
-    return overviews, patches
+    return found
 
 
 def vary_colours(x, rng):

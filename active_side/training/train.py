@@ -115,7 +115,7 @@ def main():
             if path in known:
                 continue
             known.add(path)
-            for item in examples.read(path)[which]:
+            for item in examples.read(path, which):
                 (held_back if item[0] % 20 == 7 else data).append(item)  # whole rigs are held back
         print(len(data), "examples,", len(held_back), "held back", flush=True)
 

@@ -15,7 +15,9 @@
 #include "capture/virtual_rig/random_frame.hpp"
 #include "capture/virtual_rig/random_rig.hpp"
 #include "capture/virtual_rig/rig_renderer.hpp"
+#include "detection/rows_needed.hpp"
 #include "finger/finger_detector.hpp"
+#include "finger/picture_scale.hpp"
 
 namespace telehug {
 namespace {
@@ -75,10 +77,11 @@ Figures measure_default(ImageSize image, int fingers, const std::string& suffix)
   }
   if (touched.pictures.size() < pictures) throw std::runtime_error("too few pictures with all fingers in them");
 
+  const RowRange rows = rows_needed(border, image, px_per_mm_at_border(camera, border, image));
   Figures figures = measure_path(detector, touched, "", suffix);
   for (Figure& figure : measure_stages(border, camera, empty, touched.pictures, suffix))
     figures.push_back(std::move(figure));
-  for (Figure& figure : measure_mjpeg(detector, border, touched, suffix))
+  for (Figure& figure : measure_mjpeg(detector, rows, touched, suffix))
     figures.push_back(std::move(figure));
   return figures;
 }

@@ -6,7 +6,6 @@
 #include <stdexcept>
 #include <vector>
 
-#include "detection/rows_needed.hpp"
 #include "doubles/jpeg_variants.hpp"
 #include "pictures/jpeg_decoder.hpp"
 
@@ -70,9 +69,7 @@ void must(const Status& decoded) {
 
 }  // namespace
 
-Figures measure_mjpeg(FingerDetector& detector, const BorderCurve& border, const TouchedRig& rig,
-                      const std::string& suffix) {
-  const RowRange rows = rows_needed(border, rig.image);
+Figures measure_mjpeg(FingerDetector& detector, RowRange rows, const TouchedRig& rig, const std::string& suffix) {
   std::vector<Jpeg> jpegs;
   for (const cv::Mat& picture : rig.pictures)
     jpegs.push_back(jpeg_of(picture, webcam_jpeg, webcam_quality));

@@ -5,14 +5,13 @@
 
 #include "bench/touch/figure.hpp"
 #include "bench/touch/touch_path.hpp"
-#include "calibration/border_curve.hpp"
+#include "common/row_range.hpp"
 #include "finger/finger_detector.hpp"
 
 namespace telehug {
 
 // From a webcam's MJPEG frame to touch points, beside the least that this could take: decoding the entropy coded data
 // alone, and one pass over the bytes of the rows that are needed. `ratio` is the one by the other, of the medians.
-Figures measure_mjpeg(FingerDetector& detector, const BorderCurve& border, const TouchedRig& rig,
-                      const std::string& suffix);
+Figures measure_mjpeg(FingerDetector& detector, RowRange rows, const TouchedRig& rig, const std::string& suffix);
 
 }  // namespace telehug

@@ -49,15 +49,13 @@ TEST_F(ScreenPointsOfFingers, AreDroppedWhereTheModelPlacesNothing) {
   EXPECT_EQ(touched.dropped, 1U);
 }
 
-// Seen by a camera 45 mm in front of the screen: the end of a finger, and how it is curved there.
+// Seen by a camera 45 mm in front of the screen.
 class ScreenPointsOfMeasuredFingers : public testing::Test {
  protected:
-  [[nodiscard]] static Finger finger(const ImagePoint& tip, double tip_radius_mm) {
-    constexpr double px_per_mm = 4;
+  [[nodiscard]] static Finger finger(const ImagePoint& tip) {
     Finger seen{tip, 50, tip.u_px - 30, tip.u_px + 30};
     seen.width_px = 60;
-    seen.tip_radius_px = tip_radius_mm * px_per_mm;
-    seen.px_per_mm = px_per_mm;
+    seen.px_per_mm = 4;
     return seen;
   }
   [[nodiscard]] ScreenPoint touched(const Finger& seen) const {
@@ -69,35 +67,25 @@ class ScreenPointsOfMeasuredFingers : public testing::Test {
   const RigModel model_{RigCamera({950, 0, {190, -15, 45}, 0, 0, 0}, image), 12};
 };
 
-TEST_F(ScreenPointsOfMeasuredFingers, LieBelowTheVisibleEndOfAPad) {
+TEST_F(ScreenPointsOfMeasuredFingers, LieBelowTheVisibleTipIfOnlyThatIsKnown) {
   const ImagePoint tip = *tip_of_contact(model_.camera, model_.contact_radius_mm, contact_);
-  EXPECT_NEAR(touched(finger(tip, 8)).y_mm, contact_.y_mm, 1e-6);
-  EXPECT_NEAR(touched(finger(tip, 8)).x_mm, contact_.x_mm, 1e-6);
+  EXPECT_NEAR(touched(finger(tip)).y_mm, contact_.y_mm, 1e-6);
+  EXPECT_NEAR(touched(finger(tip)).x_mm, contact_.x_mm, 1e-6);
 }
 
-TEST_F(ScreenPointsOfMeasuredFingers, LieAtTheEndOfALongNail) {
-  const ImagePoint tip = *model_.camera.project(contact_);
-  EXPECT_NEAR(touched(finger(tip, 2)).y_mm, contact_.y_mm, 1e-6);
-}
-
-TEST_F(ScreenPointsOfMeasuredFingers, GoFromNailToPadWithoutAStep) {
-  const ImagePoint tip = *model_.camera.project(contact_);
-  double before_mm = touched(finger(tip, 2)).y_mm;
-  for (double radius_mm = 2.1; radius_mm < 8; radius_mm += 0.1) {
-    const double now_mm = touched(finger(tip, radius_mm)).y_mm;
-    EXPECT_GE(now_mm, before_mm);
-    EXPECT_LT(now_mm - before_mm, 0.1);
-    before_mm = now_mm;
-  }
-  EXPECT_GT(before_mm, contact_.y_mm + 1);
+TEST_F(ScreenPointsOfMeasuredFingers, LieWhereTheDetectorSawTheContact) {
+  Finger seen = finger(*tip_of_contact(model_.camera, model_.contact_radius_mm, contact_));
+  seen.contact = *model_.camera.project(ScreenPoint{151, 222});
+  EXPECT_NEAR(touched(seen).x_mm, 151, 1e-6);
+  EXPECT_NEAR(touched(seen).y_mm, 222, 1e-6);
 }
 
 TEST_F(ScreenPointsOfMeasuredFingers, AreKeptBelowTheScreenWhereHoveringFingersAreSeen) {
   const ImagePoint tip = *model_.camera.project(ScreenPoint{150, screen_.height_mm + 60});
-  const TouchedPoints hovering = screen_points({finger(tip, 8)}, model_, screen_, image);
+  const TouchedPoints hovering = screen_points({finger(tip)}, model_, screen_, image);
   ASSERT_EQ(hovering.fingers.size(), 1U);
   EXPECT_NEAR(hovering.fingers[0].width_mm, 15, 1e-9);
-  Finger unmeasured = finger(tip, 8);
+  Finger unmeasured = finger(tip);
   unmeasured.px_per_mm = 0;
   EXPECT_EQ(screen_points({unmeasured}, model_, screen_, image).dropped, 1U);
 }
