@@ -1,13 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <CLI/CLI.hpp>
 #include <memory>
+#include <optional>
+#include <string>
 
 #include "body_map/haar_face_finder.hpp"
 #include "commands/command.hpp"
 #include "commands/eval_rigs.hpp"
+#include "commands/utc_now.hpp"
 #include "eval/error_table.hpp"
 #include "eval/touch_eval.hpp"
 #include "eval_face/eval_face.hpp"
+#include "eval_report/html_report.hpp"
+#include "eval_report/make_report.hpp"
 
 namespace telehug {
 namespace {
@@ -15,24 +20,34 @@ namespace {
 struct TouchOptions {
   EvalTouchOptions eval;
   bool beside_thesis = false;
+  std::string report;
 };
 
-ExitCode evaluate_touch(const TouchOptions& options) {
-  const auto report = eval_touch(options.eval);
-  if (!report) return fail(ExitCode::device, report.error());
-  for (const std::string& picture : report->part.unreadable)
-    fmt::print(stderr, "telehug-active: {}\n", picture);
-  fmt::print("{}", format_error_table(*report));
-  if (!options.beside_thesis) return ExitCode::ok;
+// That the thesis' way does not work on a recording is a result, not a failure.
+std::optional<Result<EvalTouchReport>> thesis_beside(const TouchOptions& options) {
+  if (!options.beside_thesis) return std::nullopt;
   EvalTouchOptions same_pictures = options.eval;
   same_pictures.algorithm = thesis_algorithm;
+  same_pictures.failure_pictures = false;
   same_pictures.out.clear();
   same_pictures.calibration.clear();
-  const auto thesis = eval_touch(same_pictures);
-  // What is asked for is there; that the thesis' way does not work here is a result.
+  auto thesis = eval_touch(same_pictures);
   fmt::print("\n{}", thesis ? format_error_table(*thesis)
                             : fmt::format("the thesis' algorithm can't be calibrated: {}\n", thesis.error().message));
-  return ExitCode::ok;
+  return thesis;
+}
+
+ExitCode evaluate_touch(TouchOptions options) {
+  options.eval.failure_pictures = !options.report.empty();
+  const auto evaluated = eval_touch(options.eval);
+  if (!evaluated) return fail(ExitCode::device, evaluated.error());
+  for (const std::string& picture : evaluated->part.unreadable)
+    fmt::print(stderr, "telehug-active: {}\n", picture);
+  fmt::print("{}", format_error_table(*evaluated));
+  const auto thesis = thesis_beside(options);
+  if (options.report.empty()) return ExitCode::ok;
+  const Status written = write_html_report(options.report, report_of(*evaluated, thesis, utc_now()));
+  return written ? ExitCode::ok : fail(ExitCode::device, written.error());
 }
 
 struct FaceOptions {
@@ -69,6 +84,8 @@ void add_eval(CLI::App& app, ExitCode& result) {
   add_algorithm_options(*eval_touch, touch->eval.algorithm, touch->beside_thesis);
   eval_touch->add_option("--calibration", touch->eval.calibration, "Numbers of the calibration pictures to use: 1,2")
       ->delimiter(',');
+  eval_touch->add_option("--report", touch->report, "A page with tables, plots and pictures of failures")
+      ->type_name("FILE.html");
   eval_touch->callback([=, &result] {
     touch->eval.rig = *rig;
     touch->eval.out = *out;

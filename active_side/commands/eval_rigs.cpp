@@ -8,9 +8,12 @@
 #include <string>
 #include <thread>
 
+#include "commands/utc_now.hpp"
 #include "eval/rigs_csv.hpp"
 #include "eval/rigs_eval.hpp"
 #include "eval/rigs_table.hpp"
+#include "eval_report/html_report.hpp"
+#include "eval_report/make_report.hpp"
 
 namespace telehug {
 namespace {
@@ -20,6 +23,7 @@ struct Options {
   EvalAlgorithm algorithm;
   bool beside_thesis = false;
   std::string out;
+  std::string report;
 };
 
 // On stderr: times differ from run to run, tables do not.
@@ -38,20 +42,25 @@ void tell_times(const std::vector<RigOutcome>& outcomes, double elapsed_s) {
 ExitCode evaluate(Options options) {
   options.eval.rig.algorithms = {options.algorithm};
   if (options.beside_thesis) options.eval.rig.algorithms.push_back(thesis_algorithm);
+  options.eval.rig.failure_pictures = !options.report.empty();
   constexpr std::size_t between_words = 100;
   const auto begin = std::chrono::steady_clock::now();
-  const auto outcomes = eval_rigs(options.eval, [&](std::size_t done) {
+  const RigsResult result = eval_rigs(options.eval, [&](std::size_t done) {
     if (done % between_words == 0) {
       fmt::print(stderr, "telehug-active: {} of {} rigs\n", done, options.eval.count);
     }
   });
-  tell_times(outcomes, std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
+  tell_times(result.rigs, std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
   for (std::size_t i = 0; i < options.eval.rig.algorithms.size(); ++i)
-    fmt::print("{}{}", i > 0 ? "\n" : "", format_rigs_table(options.eval, outcomes, i));
+    fmt::print("{}{}", i > 0 ? "\n" : "", format_rigs_table(options.eval, result.rigs, i));
   if (!options.out.empty()) {
-    if (auto written = write_rigs_csv(options.out, options.eval, outcomes); !written) {
+    if (auto written = write_rigs_csv(options.out, options.eval, result.rigs); !written) {
       return fail(ExitCode::device, written.error());
     }
+  }
+  if (!options.report.empty()) {
+    const Status written = write_html_report(options.report, report_of(options.eval, result, utc_now()));
+    if (!written) return fail(ExitCode::device, written.error());
   }
   return ExitCode::ok;
 }
@@ -91,6 +100,8 @@ void add_eval_rigs(CLI::App& eval, ExitCode& result) {
   add_algorithm_options(*rigs, options->algorithm, options->beside_thesis);
   rigs->add_option("--out", options->out, "CSV: a row a touch, false touch and frame without one")
       ->type_name("FILE.csv");
+  rigs->add_option("--report", options->report, "A page with tables, plots and pictures of failures")
+      ->type_name("FILE.html");
   rigs->add_option("--jobs", options->eval.jobs, "How many rigs at a time")
       ->check(CLI::Range(1, 256))
       ->capture_default_str();

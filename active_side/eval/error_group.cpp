@@ -72,4 +72,14 @@ void add(ErrorGroups& groups, const TouchScore& score, const std::vector<std::st
   add_each(groups, score.rests, common);
 }
 
+ErrorGroups groups_that_differ(const ErrorGroups& groups) {
+  const auto kind_of = [](const std::string& name) { return name.substr(0, name.find(' ')); };
+  std::map<std::string, std::size_t> members;
+  for (const auto& [name, group] : groups)
+    ++members[kind_of(name)];
+  ErrorGroups differing = groups;
+  std::erase_if(differing, [&](const auto& entry) { return members[kind_of(entry.first)] < 2; });
+  return differing;
+}
+
 }  // namespace telehug

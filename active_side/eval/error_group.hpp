@@ -41,4 +41,7 @@ using ErrorGroups = std::map<std::string, ErrorGroup>;  // by what they have in 
 // Adds what was found to each of its own groups and to `common` ones, that all of it belongs to.
 void add(ErrorGroups& groups, const TouchScore& score, const std::vector<std::string>& common = {});
 
+// Without those whose kind ("tone" in "tone II") has no other group: they would say what all together say.
+[[nodiscard]] ErrorGroups groups_that_differ(const ErrorGroups& groups);
+
 }  // namespace telehug

@@ -71,7 +71,7 @@ std::string format_error_table(const EvalTouchReport& report) {
   fmt::format_to(out, "{}\n", error_row("all", whole(*report.score)));
   ErrorGroups groups;
   add(groups, *report.score);
-  for (const auto& [name, group] : groups)
+  for (const auto& [name, group] : groups_that_differ(groups))
     fmt::format_to(out, "{}\n", error_row(name, group));
   print_false_touches(out, *report.score);
   if (report.part.dropped > 0) {

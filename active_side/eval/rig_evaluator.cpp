@@ -31,7 +31,7 @@ Status check_choice(const char* option, const std::string& choice) {
 // Reads the pictures of a part in order and collects what is found in each.
 class Evaluation {
  public:
-  explicit Evaluation(CalibratedRig rig)
+  explicit Evaluation(EvaluatedRig rig)
       : calibration_(std::move(rig.calibration)),
         detector_(std::move(rig.detector)),
         model_(upright(calibration_).model()),
@@ -125,16 +125,16 @@ Status check_algorithm(const EvalAlgorithm& algorithm) {
   return check_choice("model", algorithm.model);
 }
 
-Result<CalibratedRig> calibrate_rig(const RigDirectory& recording, const EvalAlgorithm& algorithm,
-                                    const std::vector<int>& calibration) {
+Result<EvaluatedRig> calibrate_rig(const RigDirectory& recording, const EvalAlgorithm& algorithm,
+                                   const std::vector<int>& calibration) {
   auto calibrated = calibrate_from_recording(recording, algorithm.model, calibration, "");
   if (!calibrated) return calibrated.error();
   auto detector = detector_for(algorithm.detector, *calibrated, recording);
   if (!detector) return detector.error();
-  return CalibratedRig{*std::move(calibrated), *std::move(detector)};
+  return EvaluatedRig{*std::move(calibrated), *std::move(detector)};
 }
 
-EvaluatedPart evaluate_part(CalibratedRig rig, const RigPart& part) {
+EvaluatedPart evaluate_part(EvaluatedRig rig, const RigPart& part) {
   return Evaluation(std::move(rig)).run(part);
 }
 

@@ -25,15 +25,15 @@ inline const EvalAlgorithm thesis_algorithm{"thesis", "thesis"};
 Status check_algorithm(const EvalAlgorithm& algorithm);
 
 // A recorded rig as the algorithm sees it after calibration, with nobody there.
-struct CalibratedRig {
+struct EvaluatedRig {
   Calibration calibration;
   AnyDetector detector;
 };
 
 // `calibration`: numbers of the calibration pictures to use, see rig_calibration.hpp. The error says which picture is
 // missing or unfit and why.
-Result<CalibratedRig> calibrate_rig(const RigDirectory& recording, const EvalAlgorithm& algorithm,
-                                    const std::vector<int>& calibration);
+Result<EvaluatedRig> calibrate_rig(const RigDirectory& recording, const EvalAlgorithm& algorithm,
+                                   const std::vector<int>& calibration);
 
 struct EvaluatedPart {
   std::vector<FoundTouches> found;      // one a frame, in the part's order
@@ -42,6 +42,6 @@ struct EvaluatedPart {
 };
 
 // What is found in the pictures of a part: each alone, but those of `sequence` with the tracker.
-EvaluatedPart evaluate_part(CalibratedRig rig, const RigPart& part);
+EvaluatedPart evaluate_part(EvaluatedRig rig, const RigPart& part);
 
 }  // namespace telehug

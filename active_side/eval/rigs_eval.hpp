@@ -19,8 +19,12 @@ struct EvalRigsOptions {
   VirtualRigEval rig;
 };
 
-// The outcomes in the seeds' order, the same for any number of jobs. `progress` is told how many rigs are done, by one
-// thread at a time.
-std::vector<RigOutcome> eval_rigs(const EvalRigsOptions& options, const std::function<void(std::size_t)>& progress);
+struct RigsResult {
+  std::vector<RigOutcome> rigs;          // in the seeds' order; without their failures' pictures
+  std::vector<FailurePicture> failures;  // the biggest of each kind; frames are called as "virtual:7 frames/013"
+};
+
+// The same for any number of jobs. `progress` is told how many rigs are done, by one thread at a time.
+RigsResult eval_rigs(const EvalRigsOptions& options, const std::function<void(std::size_t)>& progress);
 
 }  // namespace telehug

@@ -85,7 +85,7 @@ std::string format_rigs_table(const EvalRigsOptions& options, const std::vector<
                  outstanding_ratio, enough_touches);
   fmt::format_to(out, "{}{:>14}{:>14}\n", error_heads(), "near ratio", "found ratio");
   fmt::format_to(out, "{}\n", error_row("all", sum.all));
-  for (const auto& [name, group] : sum.groups)
+  for (const auto& [name, group] : groups_that_differ(sum.groups))
     fmt::format_to(out, "{}{}\n", error_row(name, group), ratios_text(error_ratio(group, sum.all)));
   fmt::format_to(out, "frames without a touch in which one was found:\n");
   for (const auto& [name, rests] : sum.rests)

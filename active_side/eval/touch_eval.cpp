@@ -52,8 +52,11 @@ Result<EvalTouchReport> eval_touch(const EvalTouchOptions& options) {
   }
   auto rig = calibrate_rig(*recording, options.algorithm, options.calibration);
   if (!rig) return rig.error();
-  EvalTouchReport report{options, rig->calibration, evaluate_part(*rig, *part), std::nullopt};
+  EvalTouchReport report{options, rig->calibration, evaluate_part(*rig, *part), std::nullopt, {}};
   if (!part->truth.empty()) report.score = score_touches(report.part.found, part->truth);
+  if (report.score && options.failure_pictures) {
+    report.failures = biggest(picture_failures(failures_of(*report.score), rig->calibration, *part), failures_kept);
+  }
   if (!options.out.empty()) {
     if (auto written = write_csv(options.out, report.part.found); !written) return written.error();
   }

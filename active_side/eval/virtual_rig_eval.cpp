@@ -3,6 +3,7 @@
 
 #include <exception>
 #include <utility>
+#include <variant>
 
 #include "capture/rig_directory.hpp"
 #include "capture/virtual_rig/export_rig.hpp"
@@ -42,7 +43,16 @@ void append(TouchScore& all, TouchScore part, const std::string& folder) {
   move_into(all.extras, part.extras);
 }
 
-AlgorithmOutcome outcome_of(const EvalAlgorithm& algorithm, const RigDirectory& recording) {
+std::vector<ScreenPoint> calibration_errors(const Calibration& calibration) {
+  std::vector<ScreenPoint> errors;
+  if (const auto* rig = std::get_if<RigCalibration>(&calibration.solved)) {
+    for (const TouchResidual& touch : rig->solution.touches)
+      errors.push_back(touch.error_mm);
+  }
+  return errors;
+}
+
+AlgorithmOutcome outcome_of(const EvalAlgorithm& algorithm, const RigDirectory& recording, bool failure_pictures) {
   AlgorithmOutcome outcome;
   try {
     const auto rig = calibrate_rig(recording, algorithm, {});
@@ -50,10 +60,19 @@ AlgorithmOutcome outcome_of(const EvalAlgorithm& algorithm, const RigDirectory& 
       outcome.failure = rig.error().message;
       return outcome;
     }
-    for (const RigPart& part : recording.parts)
-      append(outcome.score, score_touches(evaluate_part(*rig, part).found, part.truth), part.name);
+    outcome.calibration_errors_mm = calibration_errors(rig->calibration);
+    for (const RigPart& part : recording.parts) {
+      TouchScore score = score_touches(evaluate_part(*rig, part).found, part.truth);
+      if (failure_pictures) {
+        for (FailurePicture& picture : picture_failures(failures_of(score), rig->calibration, part)) {
+          picture.failure.frame = part.name + "/" + picture.failure.frame;
+          outcome.failures.push_back(std::move(picture));
+        }
+      }
+      append(outcome.score, std::move(score), part.name);
+    }
   } catch (const std::exception& problem) {
-    outcome = {problem.what(), {}};
+    outcome = {problem.what(), {}, {}, {}};
   }
   return outcome;
 }
@@ -73,12 +92,13 @@ RigOutcome evaluate_virtual_rig(std::uint64_t seed, const VirtualRigEval& option
   outcome.seed = seed;
   const auto begin = SteadyTime::now();
   const auto fail = [&](const std::string& why) {
-    outcome.algorithms.assign(options.algorithms.size(), {why, {}});
+    outcome.algorithms.assign(options.algorithms.size(), {why, {}, {}, {}});
     return outcome;
   };
   try {
     const RandomRig rig = random_rig(seed);
     outcome.groups = groups_of(rig);
+    outcome.screen = rig.settings.screen;
     outcome.coat = rig.group.coat;
     const TemporaryDirectory folder;
     const auto drawn = export_rig_directory(rig, folder.path(), pictures_of(seed, options));
@@ -87,7 +107,8 @@ RigOutcome evaluate_virtual_rig(std::uint64_t seed, const VirtualRigEval& option
     if (!recording) return fail(recording.error().message);
     outcome.drawing = SteadyTime::now() - begin;
     for (const EvalAlgorithm& algorithm : options.algorithms) {
-      outcome.algorithms.push_back(outcome_of(algorithm, *recording));
+      const bool pictures = options.failure_pictures && outcome.algorithms.empty();
+      outcome.algorithms.push_back(outcome_of(algorithm, *recording, pictures));
       leave_out(outcome.algorithms.back().failure, folder.path().string());
     }
     outcome.evaluating = SteadyTime::now() - begin - outcome.drawing;

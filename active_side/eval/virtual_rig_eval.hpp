@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "eval/failure_pictures.hpp"
 #include "eval/rig_evaluator.hpp"
 #include "eval/touch_score.hpp"
 
@@ -16,16 +17,21 @@ struct VirtualRigEval {
   int hard = 1;                               // with two fingers or two hands
   int dots = 9;                               // touches of known points that calibrate it
   std::vector<EvalAlgorithm> algorithms{{}};  // each on the same pictures
+  bool failure_pictures = false;              // are they wanted; of the first algorithm
 };
 
 // What an algorithm made of a rig's pictures. Frames are called "frames/013" and "hard/002", as `record` calls them.
 struct AlgorithmOutcome {
   std::string failure;  // why it was not calibrated; empty: it was
   TouchScore score;
+  std::vector<ScreenPoint> calibration_errors_mm;  // where the model places the calibration's touches, minus where
+                                                   // they were; none with the thesis', which fits its two exactly
+  std::vector<FailurePicture> failures;            // if they are wanted
 };
 
 struct RigOutcome {
   std::uint64_t seed = 0;
+  ScreenSize screen;
   std::string coat;
   std::vector<std::string> groups;  // see rig_groups.hpp
   std::vector<AlgorithmOutcome> algorithms;

@@ -3,3 +3,5 @@ telehug_test(test_touch_samples KIND pipeline SUBJECT touch SOURCES pipeline/eva
   DEPS active_eval telehug_pictures)
 telehug_test(test_virtual_rig_dots KIND pipeline SUBJECT touch SOURCES pipeline/eval/virtual_rig_dots_test.cpp
   DEPS active_calibration active_capture)
+telehug_test(test_eval_rigs KIND pipeline SUBJECT touch SOURCES pipeline/eval_report/eval_rigs_test.cpp
+  DEPS active_eval_report)

@@ -67,7 +67,8 @@ class ErrorTable : public testing::Test {
              {500, 0},
              ThesisCalibration{{first, second}, ThesisTouchModel::solve(rig.screen, first, second).value()}},
             {{{"1", {}}}, {}, 0},
-            std::move(score)};
+            std::move(score),
+            {}};
   }
 };
 
