@@ -53,16 +53,14 @@ ExitCode evaluate(Options options) {
   tell_times(result.rigs, std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
   for (std::size_t i = 0; i < options.eval.rig.algorithms.size(); ++i)
     fmt::print("{}{}", i > 0 ? "\n" : "", format_rigs_table(options.eval, result.rigs, i));
-  if (!options.out.empty()) {
-    if (auto written = write_rigs_csv(options.out, options.eval, result.rigs); !written) {
-      return fail(ExitCode::device, written.error());
-    }
-  }
-  if (!options.report.empty()) {
-    const Status written = write_html_report(options.report, report_of(options.eval, result, utc_now()));
-    if (!written) return fail(ExitCode::device, written.error());
-  }
-  return ExitCode::ok;
+  // A long run is not lost because one of its files can't be written.
+  ExitCode ended = ExitCode::ok;
+  const auto note = [&](const Status& written) {
+    if (!written) ended = fail(ExitCode::device, written.error());
+  };
+  if (!options.out.empty()) note(write_rigs_csv(options.out, options.eval, result.rigs));
+  if (!options.report.empty()) note(write_html_report(options.report, report_of(options.eval, result, utc_now())));
+  return ended;
 }
 
 }  // namespace
