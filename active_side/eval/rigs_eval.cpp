@@ -42,7 +42,9 @@ RigsResult eval_rigs(const EvalRigsOptions& options, const std::function<void(st
     }
   };
   std::vector<std::jthread> threads;
-  for (std::size_t job = 0; job < std::min(options.jobs, options.count); ++job)
+  const std::size_t jobs = std::min(options.jobs, options.count);
+  threads.reserve(jobs);
+  for (std::size_t job = 0; job < jobs; ++job)
     threads.emplace_back(work);
   threads.clear();  // waits for them
   return result;

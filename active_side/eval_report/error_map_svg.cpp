@@ -80,8 +80,9 @@ std::string error_map_svg(const std::string& title, const ErrorMap& map, double 
   fmt::format_to(out, "{}", svg_text(width_px / 2, 16, "middle", "title", title));
   for (std::size_t i = 0; i < map.cells.size(); ++i) {
     const MapCell& cell = map.cells[i];
-    const double x = 2 + cell_width_px * static_cast<double>(i % ErrorMap::columns);
-    const double y = top_px + cell_height_px * static_cast<double>(i / ErrorMap::columns);
+    const std::size_t row = i / ErrorMap::columns;
+    const double x = 2 + cell_width_px * static_cast<double>(i - row * ErrorMap::columns);
+    const double y = top_px + cell_height_px * static_cast<double>(row);
     const double share = cell.value.value_or(0) / high;
     fmt::format_to(out, "<rect class=\"cell\" x=\"{:.0f}\" y=\"{:.0f}\" width=\"{:.0f}\" height=\"{:.0f}\"{}/>\n", x, y,
                    cell_width_px, cell_height_px,

@@ -190,8 +190,11 @@ std::string touches_table(const std::vector<ReportedTouch>& touches, std::size_t
     distance.values.push_back(reported.touch.error_mm());
   }
   if (shown.size() > most) {
-    std::stable_sort(shown.begin(), shown.end(),
-                     [](const auto* a, const auto* b) { return how_bad(*a) > how_bad(*b); });
+    std::sort(shown.begin(), shown.end(), [](const auto* a, const auto* b) {
+      const double bad = how_bad(*a);
+      const double other = how_bad(*b);
+      return bad != other ? bad > other : a < b;  // as they stand in `touches`
+    });
     shown.resize(most);
   }
   std::string rows;
