@@ -15,6 +15,7 @@ Examples:
   telehug-active camera tune
   telehug-active run --source webcam --set body_map.picture=chat.jpg
   telehug-active eval touch RIG_DIR --out touches.csv --detector thesis --model thesis
+  telehug-active eval rigs --from 1 --count 100 --report rigs.html
   telehug-active show-boxes chat.jpg --out boxes.png
 
 Exit codes: 0 ok, 1 fault of telehug, 2 wrong command line, 3 faults in the configuration, 4 a camera, picture or

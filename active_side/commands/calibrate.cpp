@@ -3,7 +3,6 @@
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <filesystem>
 #include <iostream>
@@ -15,12 +14,14 @@
 #include "capture/virtual_rig/export_rig.hpp"
 #include "commands/calibrate_by_hand.hpp"
 #include "commands/config_options.hpp"
+#include "commands/utc_now.hpp"
 #include "config/locator.hpp"
 #include "config/places.hpp"
 #include "detection/make_detector.hpp"
 #include "detection/upright_picture.hpp"
 #include "eval/empty_rig.hpp"
 #include "eval/rig_calibration.hpp"
+#include "eval/temporary_directory.hpp"
 #include "finger/background_file.hpp"
 
 namespace telehug {
@@ -35,36 +36,6 @@ struct Options {
   double width_mm = 0;
   double height_mm = 0;
   std::vector<std::string> points;
-};
-
-std::string utc_now() {
-  const std::time_t now = std::chrono::system_clock::to_time_t(std::chrono::system_clock::now());
-  std::tm utc{};
-  gmtime_r(&now, &utc);
-  std::array<char, sizeof "2026-01-01T00:00:00Z"> text{};
-  (void)std::strftime(text.data(), text.size(), "%FT%TZ", &utc);
-  return text.data();
-}
-
-// A folder of its own, gone with this object.
-class ScratchFolder {
- public:
-  ScratchFolder() {
-    std::string name = (std::filesystem::temp_directory_path() / "telehug-calibration-XXXXXX").string();
-    if (mkdtemp(name.data()) == nullptr) throw std::runtime_error("no folder can be made in the temporary folder");
-    path_ = name;
-  }
-  ~ScratchFolder() {
-    std::error_code ignored;
-    std::filesystem::remove_all(path_, ignored);
-  }
-  ScratchFolder(const ScratchFolder&) = delete;
-  ScratchFolder& operator=(const ScratchFolder&) = delete;
-
-  [[nodiscard]] const std::filesystem::path& path() const noexcept { return path_; }
-
- private:
-  std::filesystem::path path_;
 };
 
 Result<CalibratedRig> from_recording(const std::filesystem::path& folder, const std::string& model,
@@ -83,7 +54,7 @@ Result<CalibratedRig> from_recording(const std::filesystem::path& folder, const 
 
 Result<CalibratedRig> from_virtual_rig(const std::string& source, const VirtualRigSettings& usual,
                                        const std::string& model, const std::vector<int>& frames) {
-  const ScratchFolder scratch;
+  const TemporaryDirectory scratch;
   // The default model's: with those far to the left and right. Rendering more takes its time and gains little.
   const int all = model == "thesis" ? 2 : 6;
   const int touches = frames.empty() ? all : *std::max_element(frames.begin(), frames.end());

@@ -3,15 +3,18 @@
 
 #include <string>
 
+#include "eval/error_group.hpp"
 #include "eval/touch_eval.hpp"
 
 namespace telehug {
 
-// A found touch farther than this from the truth is counted as wrong.
-inline constexpr double near_enough_mm = 10;
-
 // The table that `eval touch` prints: what was missed, wrong and falsely found, mean and 95th percentile of the
-// vertical and horizontal error; altogether, by skin tone and by what the screen showed. Says so if there is no truth.
+// vertical and horizontal error; altogether and by what the touches have in common. Says so if there is no truth.
 std::string format_error_table(const EvalTouchReport& report);
+
+// Columns of such a table: what they are, their heads, and the row of a group.
+std::string error_legend();
+std::string error_heads();
+std::string error_row(const std::string& name, const ErrorGroup& group);
 
 }  // namespace telehug

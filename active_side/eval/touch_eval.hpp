@@ -4,7 +4,6 @@
 // truth.
 #pragma once
 
-#include <cstddef>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -12,29 +11,28 @@
 
 #include "calibration/calibration.hpp"
 #include "common/result.hpp"
+#include "eval/failure_pictures.hpp"
+#include "eval/rig_evaluator.hpp"
 #include "eval/touch_score.hpp"
 
 namespace telehug {
 
 struct EvalTouchOptions {
-  std::filesystem::path rig;         // a recording, see capture/rig_directory.hpp
-  std::filesystem::path out;         // CSV: frame,contact,x_mm,y_mm; empty: none is written
-  std::string part = "frames";       // frames, hard (each picture alone), sequence (one 30 Hz recording)
-  std::string detector = "default";  // thesis, default: the best there is, at present the thesis'
-  std::string model = "default";     // thesis, default: the camera solved from all touches
-  std::vector<int>
-      calibration;  // numbers of the calibration frames; empty: what the model uses (thesis: 1, 2; default: all)
+  std::filesystem::path rig;      // a recording, see capture/rig_directory.hpp
+  std::filesystem::path out;      // CSV: frame,contact,x_mm,y_mm; empty: none is written
+  std::string part = "frames";    // frames, hard (each picture alone), sequence (one 30 Hz recording)
+  EvalAlgorithm algorithm;        // which detector and model
+  std::vector<int> calibration;   // numbers of the calibration frames; empty: what the model uses (thesis: 1, 2;
+                                  // default: all)
+  bool failure_pictures = false;  // are they wanted
 };
 
 struct EvalTouchReport {
   EvalTouchOptions options;
-  std::string detector;  // the algorithm that "default" stood for, or the one asked for
-  std::string model;
   Calibration calibration;
-  std::vector<FoundTouches> found;      // one a frame, in the part's order
-  std::vector<std::string> unreadable;  // pictures that could not be used, and why; they count as without a touch
-  std::size_t dropped = 0;              // fingers whose point lay too far outside the screen
-  std::optional<TouchScore> score;      // if the part has a truth
+  EvaluatedPart part;
+  std::optional<TouchScore> score;       // if the part has a truth
+  std::vector<FailurePicture> failures;  // if they are wanted, the biggest of each kind
 };
 
 // The error says which option, file or calibration picture is wrong.

@@ -5,3 +5,5 @@ telehug_test(test_virtual_rig_dots KIND pipeline SUBJECT touch SOURCES pipeline/
   DEPS active_calibration active_capture)
 telehug_test(test_rows_needed KIND pipeline SUBJECT touch SOURCES pipeline/eval/rows_needed_test.cpp
   DEPS active_detection active_capture)
+telehug_test(test_eval_rigs KIND pipeline SUBJECT touch SOURCES pipeline/eval_report/eval_rigs_test.cpp
+  DEPS active_eval_report)

@@ -33,4 +33,9 @@ telehug_test(test_touch KIND unit SUBJECT touch
           unit/touch/contact_tracker_test.cpp unit/touch/finger_tracks_test.cpp unit/touch/gesture_recogniser_test.cpp
           unit/touch/sample_sequences_test.cpp unit/touch/screen_points_test.cpp unit/touch/touch_decision_test.cpp
   DEPS active_touch active_calibration)
-telehug_test(test_eval KIND unit SUBJECT touch SOURCES unit/eval/touch_score_test.cpp DEPS active_eval)
+telehug_test(test_eval KIND unit SUBJECT touch
+  SOURCES unit/eval/error_group_test.cpp unit/eval/error_statistics_test.cpp unit/eval/failure_test.cpp
+          unit/eval/rigs_table_test.cpp unit/eval/touch_score_test.cpp
+  DEPS active_eval)
+telehug_test(test_eval_report KIND unit SUBJECT touch
+  SOURCES unit/eval_report/html_report_test.cpp unit/eval_report/svg_test.cpp DEPS active_eval_report)

@@ -89,17 +89,22 @@ class RigExporter {
     return write_text("calibration.csv", csv);
   }
 
-  Status write_frames() { return write_random(settings_.single_frames, frame_kinds, "frames", "truth.csv", 0); }
-  Status write_hard() { return write_random(settings_.hard_frames, hard_kinds, "hard", "hard/truth.csv", hard_seed); }
+  Status write_frames() {
+    return write_random(settings_.skipped_frames, settings_.single_frames, frame_kinds, "frames", "truth.csv", 0);
+  }
+  Status write_hard() {
+    return write_random(settings_.skipped_hard_frames, settings_.hard_frames, hard_kinds, "hard", "hard/truth.csv",
+                        hard_seed);
+  }
 
   template <std::size_t n>
-  Status write_random(int count, const std::array<FrameKind, n>& kinds, const char* folder, const char* csv,
-                      std::uint64_t first_seed) {
+  Status write_random(int skipped, int count, const std::array<FrameKind, n>& kinds, const char* folder,
+                      const char* csv, std::uint64_t first_seed) {
     if (count == 0) return Done{};
     RigRenderer renderer(rig_.settings);
     std::string truth(truth_csv_header);
     std::map<ScreenContent, std::shared_ptr<RigView>> views;
-    for (int i = 0; i < count; ++i) {
+    for (int i = skipped; i < skipped + count; ++i) {
       const std::uint64_t seed = first_seed + static_cast<std::uint64_t>(i);
       const FrameKind kind = kinds[static_cast<std::size_t>(i) % n];
       const RandomFrame frame = random_frame(rig_, kind, rig_.settings.seed * 100'000 + seed);
@@ -167,7 +172,7 @@ Status export_rig_directory(const VirtualRigSettings& rig, const fs::path& path,
 
 Status export_rig_directory(const RandomRig& rig, const fs::path& path, const ExportSettings& settings) {
   if (settings.sequence_frames < 0 || settings.single_frames < 0 || settings.hard_frames < 0 ||
-      settings.calibration_touches < 0) {
+      settings.calibration_touches < 0 || settings.skipped_frames < 0 || settings.skipped_hard_frames < 0) {
     return Error{"virtual rig: the numbers of frames to export must not be negative"};
   }
   if (Status checked = check_virtual_rig(rig.settings); !checked) return checked;

@@ -13,6 +13,10 @@ struct ExportSettings {
   int sequence_frames = 120;    // how much of the script, from its beginning, becomes `sequence`; 0: none
   int single_frames = 12;  // random touches, hovering fingers, distant hands and empty pictures in `frames`; 0: none
   int hard_frames = 4;     // random touches of two fingers or two hands in `hard`; 0: none
+  // How many of the rig's endless row of frames (and of hard ones) are left out before the first. Names go on with the
+  // row: a part of it is the same pictures under the same names.
+  int skipped_frames = 0;
+  int skipped_hard_frames = 0;
 };
 
 // Writes a recording of a virtual rig (layout: rig_directory.hpp) with its truth: rig.toml, background, triangle,

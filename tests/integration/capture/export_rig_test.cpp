@@ -5,6 +5,7 @@
 
 #include <fstream>
 #include <iterator>
+#include <opencv2/core.hpp>
 #include <string>
 
 #include "capture/rig_directory.hpp"
@@ -77,6 +78,26 @@ TEST(ExportedRig, OfARandomRigHasAllItsPartsAndGroups) {
   std::ifstream toml(folder.path() / "rig.toml");
   const std::string text{std::istreambuf_iterator<char>(toml), {}};
   EXPECT_NE(text.find("coat = \"" + rig.group.coat + "\""), std::string::npos);
+}
+
+TEST(ExportedRig, HoldsTheSamePicturesUnderTheSameNamesInAPartOfTheRow) {
+  const TemporaryFolder folder;
+  const RandomRig rig = random_rig(3, {320, 180});
+  ExportSettings settings{.calibration_touches = 0, .sequence_frames = 0, .single_frames = 4, .hard_frames = 2};
+  ASSERT_TRUE(export_rig_directory(rig, folder / "all", settings));
+  settings.single_frames = settings.skipped_frames = 2;
+  settings.hard_frames = settings.skipped_hard_frames = 1;
+  ASSERT_TRUE(export_rig_directory(rig, folder / "part", settings));
+  const auto all = open_rig_directory(folder / "all");
+  const auto part = open_rig_directory(folder / "part");
+  ASSERT_TRUE(all.ok() && part.ok());
+  const RigFrame& first = part->part("frames")->frames.at(0);
+  EXPECT_EQ(first.name, "003");
+  EXPECT_EQ(part->part("frames")->truth.at(0).hover_mm, all->part("frames")->truth.at(2).hover_mm);
+  const auto picture = read_picture(first.picture);
+  const auto same = read_picture(all->part("frames")->frames.at(2).picture);
+  EXPECT_EQ(cv::norm(*picture, *same, cv::NORM_INF), 0);
+  EXPECT_EQ(part->part("hard")->frames.at(0).name, "002");
 }
 
 TEST(ExportedRig, SaysWhereItCantBeWritten) {

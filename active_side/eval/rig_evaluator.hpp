@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "calibration/calibration.hpp"
+#include "capture/rig_directory.hpp"
+#include "common/result.hpp"
+#include "eval/touch_score.hpp"
+#include "finger/any_detector.hpp"
+
+namespace telehug {
+
+// Which algorithm: of detector and model each "thesis" or "default".
+struct EvalAlgorithm {
+  std::string detector = "default";
+  std::string model = "default";
+};
+
+inline const EvalAlgorithm thesis_algorithm{"thesis", "thesis"};
+
+// The error says which option is wrong.
+Status check_algorithm(const EvalAlgorithm& algorithm);
+
+// A recorded rig as the algorithm sees it after calibration, with nobody there.
+struct EvaluatedRig {
+  Calibration calibration;
+  AnyDetector detector;
+};
+
+// `calibration`: numbers of the calibration pictures to use, see rig_calibration.hpp. The error says which picture is
+// missing or unfit and why.
+Result<EvaluatedRig> calibrate_rig(const RigDirectory& recording, const EvalAlgorithm& algorithm,
+                                   const std::vector<int>& calibration);
+
+struct EvaluatedPart {
+  std::vector<FoundTouches> found;      // one a frame, in the part's order
+  std::vector<std::string> unreadable;  // pictures that could not be used, and why; they count as without a touch
+  std::size_t dropped = 0;              // fingers whose point lay too far outside the screen
+};
+
+// What is found in the pictures of a part: each alone, but those of `sequence` with the tracker.
+EvaluatedPart evaluate_part(EvaluatedRig rig, const RigPart& part);
+
+}  // namespace telehug
