@@ -42,10 +42,12 @@ class FrameDrawer {
         break;
       case FrameKind::touch:
         frame.hands.push_back(pose({seen_point(0), 0}, user_));
+        if (random_.chance(0.3)) stroke(frame.hands.back());
         break;
       case FrameKind::hover: {
         const double hover_mm = random_.uniform(5, 60);
         frame.hands.push_back(pose({seen_point(hover_mm), hover_mm}, user_));
+        if (random_.chance(0.5)) come_or_go(frame.hands.back());
         break;
       }
       case FrameKind::away:
@@ -73,6 +75,15 @@ class FrameDrawer {
     const double margin_v = margin_share * settings_.image.height_px;
     return image.u_px > margin_u && image.u_px < settings_.image.width_px - margin_u && image.v_px > margin_v &&
            image.v_px < settings_.image.height_px - margin_v;
+  }
+
+  // As fast as people stroke a screen.
+  void stroke(HandPose& hand) { hand.velocity_mm_per_s = {random_.uniform(-250, 250), random_.uniform(-150, 150), 0}; }
+
+  // As in a script: approach_from_mm within approach_s.
+  void come_or_go(HandPose& hand) {
+    const double speed = random_.uniform(0.2, 1) * approach_from_mm / approach_s * (random_.chance(0.5) ? 1 : -1);
+    hand.velocity_mm_per_s = {0, 0.2 * speed, speed};
   }
 
   // A point of the screen above which the camera sees what hovers there, with equal chance everywhere.
