@@ -14,10 +14,14 @@ struct FingerPlace {
   double hover_mm = 0;  // 0: it touches
 };
 
+// What a hand does: one that does not point is placed by its foremost point as if that were a finger's.
+enum class Posture { pointing, fist, forearm };
+
 // A hand that points at the screen. Its index finger, and the middle finger if `second` is given, is straight or bent a
 // little; the others are curled.
 struct HandPose {
   FingerPlace finger;
+  Posture posture = Posture::pointing;
   std::optional<FingerPlace> second;  // 15 to 60 mm beside the first, else the hand is torn
   double approach_deg = 57;           // between the finger's end and the screen: 20 flat, 70 steep
   double lean_deg = 8;    // the finger leans to the thumb's side (> 0: the hand is beside it, away from the thumb)

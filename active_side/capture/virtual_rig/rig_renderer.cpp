@@ -24,8 +24,8 @@ bool same_shape(const HandPose& a, const HandPose& b) {
         (a.second->hover_mm > 0) == (b.second->hover_mm > 0) && (a.finger.hover_mm > 0) == (b.finger.hover_mm > 0);
     if (!same_contacts || cv::norm(apart(a) - apart(b)) > 0.01) return false;
   }
-  return a.approach_deg == b.approach_deg && a.lean_deg == b.lean_deg && a.turn_deg == b.turn_deg &&
-         a.bend_deg == b.bend_deg && a.press_mm == b.press_mm && a.looks == b.looks;
+  return a.posture == b.posture && a.approach_deg == b.approach_deg && a.lean_deg == b.lean_deg &&
+         a.turn_deg == b.turn_deg && a.bend_deg == b.bend_deg && a.press_mm == b.press_mm && a.looks == b.looks;
 }
 
 // The pixels of all triangles, and some for the outlines' blur.
