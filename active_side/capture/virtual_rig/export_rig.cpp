@@ -24,7 +24,8 @@ namespace {
 // What `frames` holds, over and over.
 constexpr std::array frame_kinds{FrameKind::touch, FrameKind::touch, FrameKind::hover, FrameKind::nohand,
                                  FrameKind::touch, FrameKind::touch, FrameKind::away,  FrameKind::touch,
-                                 FrameKind::hover, FrameKind::touch, FrameKind::touch, FrameKind::touch};
+                                 FrameKind::hover, FrameKind::touch, FrameKind::touch, FrameKind::touch,
+                                 FrameKind::palm};
 constexpr std::array hard_kinds{FrameKind::two_fingers, FrameKind::two_hands};
 constexpr std::uint64_t hard_seed = 1000;  // frames count up from here, so that `frames` and `hard` differ
 

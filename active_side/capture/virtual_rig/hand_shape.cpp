@@ -85,6 +85,29 @@ std::vector<Limb> first_finger(const HandSkeleton& skeleton) {
   return {skeleton.pointing_limbs[0], skeleton.pointing_limbs[1]};
 }
 
+TriangleMesh coarse_hand(const HandSkeleton& skeleton) {
+  DistanceGrid grid(box_around(skeleton.limbs, 2 * hand_step_mm), hand_step_mm);
+  for (const Limb& limb : skeleton.limbs)
+    grid.add(limb);
+  return grid.surface(skeleton.limbs.front().tint, skeleton.limbs.front().gloss);
+}
+
+void add_clothes_and_nails(const HandSkeleton& skeleton, const HandLooks& looks, TriangleMesh& mesh) {
+  if (!skeleton.clothes.empty()) {
+    DistanceGrid cloth(box_around(skeleton.clothes, 2 * hand_step_mm), hand_step_mm);
+    for (const Limb& limb : skeleton.clothes)
+      cloth.add(limb);
+    mesh.append(cloth.surface(skeleton.clothes.front().tint, 0));
+  }
+  if (looks.sleeve == Sleeve::glove) return;
+  for (std::size_t i = 0; i < skeleton.ends.size(); ++i) {
+    HandLooks short_nails = looks;
+    if (i >= skeleton.pointing) short_nails.nail_mm = std::min(looks.nail_mm, 3.0);
+    mesh.append(nail(skeleton.ends[i], short_nails));
+  }
+  if (looks.ring && skeleton.pointing > 0) mesh.append(ring(skeleton.ring_finger_segment));
+}
+
 }  // namespace
 
 cv::Vec3f HandShape::place_for(const FingerPlace& finger) const {
@@ -94,6 +117,12 @@ cv::Vec3f HandShape::place_for(const FingerPlace& finger) const {
 HandShape hand_shape(const HandPose& pose, const HandLooks& looks) {
   const auto press_mm = static_cast<float>(pose.press_mm);
   HandSkeleton skeleton = hand_skeleton(pose, looks, std::nullopt);
+  if (skeleton.pointing == 0) {
+    HandShape shape{coarse_hand(skeleton), skeleton.limbs, {}, {}, false};
+    add_clothes_and_nails(skeleton, looks, shape.mesh);
+    shape.lowest_mm = shape.contact_mm = lowest_of(shape.mesh);
+    return shape;
+  }
   const EndContact end = contact_of(skeleton.ends[0], first_finger(skeleton), looks, press_mm);
   if (pose.second) {
     // Both ends are alike and alike turned, so what holds for the first holds for the second.
@@ -103,34 +132,17 @@ HandShape hand_shape(const HandPose& pose, const HandLooks& looks) {
 
   const Box3 fine_box = box_around(skeleton.pointing_limbs, 2);
   DistanceGrid fine(fine_box, finger_step_mm);
-  DistanceGrid coarse(box_around(skeleton.limbs, 2 * hand_step_mm), hand_step_mm);
-  for (const Limb& limb : skeleton.limbs) {
+  for (const Limb& limb : skeleton.limbs)
     fine.add(limb);
-    coarse.add(limb);
-  }
-  const Limb& skin = skeleton.limbs.front();
-  shape.mesh = fine.surface(skin.tint, skin.gloss);
-  TriangleMesh rest = coarse.surface(skin.tint, skin.gloss);
+  shape.mesh = fine.surface(skeleton.limbs.front().tint, skeleton.limbs.front().gloss);
+  TriangleMesh rest = coarse_hand(skeleton);
   std::erase_if(rest.triangles, [&](const MeshTriangle& triangle) {
     return std::all_of(triangle.corners.begin(), triangle.corners.end(), [&](std::uint32_t corner) {
       return fine_box.holds(rest.vertices[corner].place_mm, 2 * finger_step_mm);
     });
   });
   shape.mesh.append(rest);
-  if (!skeleton.clothes.empty()) {
-    DistanceGrid cloth(box_around(skeleton.clothes, 2 * hand_step_mm), hand_step_mm);
-    for (const Limb& limb : skeleton.clothes)
-      cloth.add(limb);
-    shape.mesh.append(cloth.surface(skeleton.clothes.front().tint, 0));
-  }
-  if (looks.sleeve != Sleeve::glove) {
-    for (std::size_t i = 0; i < skeleton.ends.size(); ++i) {
-      HandLooks short_nails = looks;
-      if (i >= skeleton.pointing) short_nails.nail_mm = std::min(looks.nail_mm, 3.0);
-      shape.mesh.append(nail(skeleton.ends[i], short_nails));
-    }
-    if (looks.ring) shape.mesh.append(ring(skeleton.ring_finger_segment));
-  }
+  add_clothes_and_nails(skeleton, looks, shape.mesh);
   return shape;
 }
 

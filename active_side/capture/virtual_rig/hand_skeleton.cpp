@@ -76,8 +76,19 @@ class HandBuilder {
     const std::array<cv::Vec3f, 4> knuckles{knuckle, knuckle + hand.side * mm(20) - hand.back * mm(4),
                                             knuckle + hand.side * mm(39) - hand.back * mm(1),
                                             knuckle + hand.side * mm(56) + hand.back * mm(8)};
+    if (pose_.posture == Posture::forearm) {
+      add_lying_forearm();
+      skeleton_.pointing = 0;
+      return std::move(skeleton_);
+    }
     add_palm(knuckles, hand);
     add_thumb(knuckle, hand);
+    if (pose_.posture == Posture::fist) {
+      for (std::size_t i = 0; i < knuckles.size(); ++i)
+        add_curled(knuckles[i], hand, i == 3 ? 0.85F : 1.0F);
+      skeleton_.pointing = 0;
+      return std::move(skeleton_);
+    }
     add_finger({0, 0, 0}, end_joint, middle_joint, knuckle, tip, base.nail);
     if (second_end) add_second(*second_end, knuckles[1], tip, base.nail);
     for (std::size_t i = second_end ? 2 : 1; i < knuckles.size(); ++i)
@@ -129,6 +140,22 @@ class HandBuilder {
       const cv::Vec3f cuff = wrist_ + elbow_side * mm(12);
       skeleton_.clothes.push_back(
           {cuff, forearm, mm(31), mm(45), hand.nail, 0.85F, 0.5F, linear(looks_.sleeve_tint), 0});
+    }
+  }
+
+  // Leant on the desk's edge or the bezel, the hand to the side.
+  void add_lying_forearm() {
+    const float to_little = looks_.left ? -1.0F : 1.0F;
+    const auto turn = static_cast<float>(pose_.lean_deg + pose_.turn_deg) * degree;
+    const cv::Vec3f to_elbow = unit({to_little * std::cos(turn), 0.25F, 0.25F + std::abs(std::sin(turn))});
+    const cv::Vec3f elbow = to_elbow * mm(230);
+    const cv::Vec3f hand = to_elbow * -mm(90);
+    const cv::Vec3f up(0, -1, 0);
+    add({0, 0, 0}, elbow, 23, 38, up, 0.85F, 10);
+    add({0, 0, 0}, hand, 25, 20, up, 0.75F, 10);
+    if (looks_.sleeve == Sleeve::sleeve) {
+      skeleton_.clothes.push_back(
+          {to_elbow * mm(12), elbow, mm(30), mm(46), up, 0.9F, 0.5F, linear(looks_.sleeve_tint), 0});
     }
   }
 

@@ -42,10 +42,12 @@ class FrameDrawer {
         break;
       case FrameKind::touch:
         frame.hands.push_back(pose({seen_point(0), 0}, user_));
+        if (random_.chance(0.3)) stroke(frame.hands.back());
         break;
       case FrameKind::hover: {
         const double hover_mm = random_.uniform(5, 60);
         frame.hands.push_back(pose({seen_point(hover_mm), hover_mm}, user_));
+        if (random_.chance(0.5)) come_or_go(frame.hands.back());
         break;
       }
       case FrameKind::away:
@@ -56,6 +58,9 @@ class FrameDrawer {
         break;
       case FrameKind::two_hands:
         frame.hands = two_hands();
+        break;
+      case FrameKind::palm:
+        frame.hands.push_back(palm());
         break;
     }
     return frame;
@@ -73,6 +78,15 @@ class FrameDrawer {
     const double margin_v = margin_share * settings_.image.height_px;
     return image.u_px > margin_u && image.u_px < settings_.image.width_px - margin_u && image.v_px > margin_v &&
            image.v_px < settings_.image.height_px - margin_v;
+  }
+
+  // As fast as people stroke a screen.
+  void stroke(HandPose& hand) { hand.velocity_mm_per_s = {random_.uniform(-250, 250), random_.uniform(-150, 150), 0}; }
+
+  // As in a script: approach_from_mm within approach_s.
+  void come_or_go(HandPose& hand) {
+    const double speed = random_.uniform(0.2, 1) * approach_from_mm / approach_s * (random_.chance(0.5) ? 1 : -1);
+    hand.velocity_mm_per_s = {0, 0.2 * speed, speed};
   }
 
   // A point of the screen above which the camera sees what hovers there, with equal chance everywhere.
@@ -115,6 +129,26 @@ class FrameDrawer {
       return hand;
     }
     return pose({seen_point(0), 0}, user_);
+  }
+
+  // A little in front of the bezel, and over the screen as far that it crosses the border in the picture: what is z in
+  // front of the screen is seen there where something z / z0 of the way to the camera's height higher lies on it.
+  HandPose palm() {
+    const double height_mm = settings_.screen.height_mm;
+    const double over_screen_mm = settings_.bezel_raised_mm + random_.uniform(0.5, 8);
+    const RigPoint& eye = camera_.position_mm();
+    const double hidden_mm = (height_mm - eye[1]) * over_screen_mm / eye[2];
+    ScreenPoint foot{settings_.screen.width_mm / 2, height_mm - hidden_mm - random_.uniform(5, 30)};
+    for (int i = 0; i < attempts; ++i) {
+      const double x_mm = random_.uniform(0.1, 0.9) * settings_.screen.width_mm;
+      if (!seen({x_mm, foot.y_mm, over_screen_mm})) continue;
+      foot.x_mm = x_mm;
+      break;
+    }
+    HandPose hand = pose({foot, over_screen_mm}, user_);
+    hand.posture = random_.chance(0.7) ? Posture::fist : Posture::forearm;
+    hand.turn_deg = random_.uniform(-60, 60);  // from the thumb's side to the hand's edge
+    return hand;
   }
 
   std::vector<HandPose> two_hands() {
@@ -219,6 +253,14 @@ std::vector<TruthRow> truth_of(const RandomFrame& frame, const std::string& name
   };
   std::vector<TruthRow> rows;
   for (const HandPose& hand : frame.hands) {
+    if (hand.posture != Posture::pointing) {
+      TruthRow row = row_of(hand, hand.finger);
+      row.contact = false;
+      row.screen.reset();
+      row.hover_mm.reset();
+      rows.push_back(row);
+      continue;
+    }
     rows.push_back(row_of(hand, hand.finger));
     if (hand.second) rows.push_back(row_of(hand, *hand.second));
   }
@@ -243,8 +285,8 @@ std::string csv_line(const TruthRow& row) {
 }
 
 std::string_view name_of(FrameKind kind) {
-  static constexpr std::array<std::string_view, 6> names{"touch",  "hover",       "away",
-                                                         "nohand", "two fingers", "two hands"};
+  static constexpr std::array<std::string_view, 7> names{"touch",       "hover",     "away", "nohand",
+                                                         "two fingers", "two hands", "palm"};
   return names[static_cast<std::size_t>(kind)];
 }
 

@@ -12,7 +12,7 @@
 
 namespace telehug {
 
-enum class FrameKind { touch, hover, away, nohand, two_fingers, two_hands };
+enum class FrameKind { touch, hover, away, nohand, two_fingers, two_hands, palm };
 
 // A single picture: who does what while the screen shows what.
 struct RandomFrame {
@@ -22,7 +22,8 @@ struct RandomFrame {
 };
 
 // Hands at places that the camera of `rig` sees, by one of its users (both hands of one for two_hands). `away`: in
-// view, but above the screen's lower border in the picture. The same for the same seed.
+// view, but above the screen's lower border in the picture. `palm`: a fist, the edge of a hand or a forearm lies across
+// that border, and no finger points. The same for the same seed.
 RandomFrame random_frame(const RandomRig& rig, FrameKind kind, std::uint64_t seed);
 
 // A hand of that user that touches (hover_mm 0) or hovers over a point, leaned and bent at random, without reaching

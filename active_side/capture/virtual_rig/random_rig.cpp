@@ -219,6 +219,7 @@ RandomRig random_rig(std::uint64_t seed, ImageSize image) {
                                         ScreenMotion::flashing};
     s.motion = random.one_of(motions);
   }
+  s.sensor.shutter_s = random.uniform(1.0 / 250, 1.0 / 30);
   s.script = random_gestures(rig, 8, seed);
   return rig;
 }

@@ -24,8 +24,8 @@ bool same_shape(const HandPose& a, const HandPose& b) {
         (a.second->hover_mm > 0) == (b.second->hover_mm > 0) && (a.finger.hover_mm > 0) == (b.finger.hover_mm > 0);
     if (!same_contacts || cv::norm(apart(a) - apart(b)) > 0.01) return false;
   }
-  return a.approach_deg == b.approach_deg && a.lean_deg == b.lean_deg && a.turn_deg == b.turn_deg &&
-         a.bend_deg == b.bend_deg && a.press_mm == b.press_mm && a.looks == b.looks;
+  return a.posture == b.posture && a.approach_deg == b.approach_deg && a.lean_deg == b.lean_deg &&
+         a.turn_deg == b.turn_deg && a.bend_deg == b.bend_deg && a.press_mm == b.press_mm && a.looks == b.looks;
 }
 
 // The pixels of all triangles, and some for the outlines' blur.
@@ -113,11 +113,20 @@ void RigRenderer::draw(const std::vector<HandPose>& hands, std::uint64_t noise_i
   if (!hands.empty()) {
     add_shadows();
     mirror_image_.clear();
-    if (settings_.coat.mirror > 0 && raster(true)) {
+    const ImagePoint mirrored_px = motion_px(hands.front(), true);
+    if (settings_.coat.mirror > 0 && raster(true, mirrored_px)) {
       mirror_image_.take(raster_);
       mirror_blur_.apply(mirror_image_);
+      motion_blur_.apply(mirror_image_, static_cast<float>(mirrored_px.u_px), static_cast<float>(mirrored_px.v_px));
     }
-    (void)raster(false);
+    const ImagePoint moved_px = motion_px(hands.front(), false);
+    blurred_ = std::hypot(moved_px.u_px, moved_px.v_px) > 0.5;
+    if (raster(false, moved_px) && blurred_) {
+      hand_.take(raster_);
+      motion_blur_.apply(hand_, static_cast<float>(moved_px.u_px), static_cast<float>(moved_px.v_px));
+    } else {
+      hand_.clear();
+    }
     compose();
   }
   development_.expose(coded_, development_.exposure_of(coded_, noise_index), bgr);
@@ -137,11 +146,28 @@ void RigRenderer::forget_before() {
   changed_.clear();
 }
 
+// By how much the (first) hand's fingertip moves in the picture while the shutter is open.
+ImagePoint RigRenderer::motion_px(const HandPose& hand, bool mirrored) const {
+  const cv::Vec3d half_mm = hand.velocity_mm_per_s * (settings_.sensor.shutter_s / 2);
+  const auto at = [&](double sign) {
+    RigPoint p(hand.finger.foot.x_mm, hand.finger.foot.y_mm, hand.finger.hover_mm);
+    p += half_mm * sign;
+    if (mirrored) p[2] = -p[2];
+    return p;
+  };
+  if (view_->camera.depth_mm(at(-1)) < 20 || view_->camera.depth_mm(at(1)) < 20) return {0, 0};
+  const ImagePoint from = view_->camera.project(at(-1));
+  const ImagePoint to = view_->camera.project(at(1));
+  return {to.u_px - from.u_px, to.v_px - from.v_px};
+}
+
 // False if nothing of it is in the picture.
-bool RigRenderer::raster(bool mirrored) {
+bool RigRenderer::raster(bool mirrored, const ImagePoint& motion_px) {
   const auto vertices = mirrored ? &SeenHand::mirrored : &SeenHand::direct;
   cv::Rect box = box_of(seen_, vertices, mirrored ? view_->screen_box : cv::Rect({0, 0}, coded_.size()));
-  if (mirrored && !box.empty()) box = grown(box, mirror_blur_.reach_px(), view_->screen_box);
+  const int moved_px = static_cast<int>(std::max(std::abs(motion_px.u_px), std::abs(motion_px.v_px)) / 2) + 1;
+  const cv::Rect within = mirrored ? view_->screen_box : cv::Rect({0, 0}, coded_.size());
+  if (!box.empty()) box = grown(box, moved_px + (mirrored ? mirror_blur_.reach_px() : 0), within);
   raster_.begin(box);
   if (box.empty()) return false;
   triangles_.clear();
@@ -195,7 +221,8 @@ void RigRenderer::compose() {
   for (int v = all.y; v < all.y + all.height; v += band_rows) {
     const int end = std::min(v + band_rows, all.y + all.height);
     const cv::Range near(v - Lens::margin_px, end + Lens::margin_px);
-    const cv::Range columns = joined(raster_.columns_within(near), mirror_image_.columns_within(near));
+    const cv::Range columns = joined(blurred_ ? hand_.columns_within(near) : raster_.columns_within(near),
+                                     mirror_image_.columns_within(near));
     if (columns.empty()) continue;
     const cv::Rect band(columns.start - Lens::margin_px, v, columns.size() + 2 * Lens::margin_px, end - v);
     compose(band & picture);
@@ -230,6 +257,15 @@ void RigRenderer::compose_row(int v, const cv::Range& columns, Light* row) {
   for (int u = mirrored.start; u < mirrored.end; ++u) {
     for (int c = 0; c < 3; ++c)
       row[u][c] += reflectance[u] * (image[u][c] - image[u][3] * behind[u][c]);
+  }
+  if (blurred_) {
+    const cv::Range seen = hand_.columns_within({v, v + 1}) & columns;
+    const auto* hand = hand_.image.ptr<cv::Vec4f>(v - hand_.box.y) - hand_.box.x;
+    for (int u = seen.start; u < seen.end; ++u) {
+      for (int c = 0; c < 3; ++c)
+        row[u][c] = row[u][c] * (1 - hand[u][3]) + hand[u][c];
+    }
+    return;
   }
   raster_.row(v, columns, [&](int u, const Light& light, float coverage, float /*height_mm*/) {
     row[u] = row[u] * (1 - coverage) + light * coverage;

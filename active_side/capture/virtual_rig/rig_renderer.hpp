@@ -13,6 +13,7 @@
 #include "capture/virtual_rig/hand_shading.hpp"
 #include "capture/virtual_rig/mesh_raster.hpp"
 #include "capture/virtual_rig/mirror_blur.hpp"
+#include "capture/virtual_rig/motion_blur.hpp"
 #include "capture/virtual_rig/picture_layer.hpp"
 #include "capture/virtual_rig/pinhole_camera.hpp"
 #include "capture/virtual_rig/rig_view.hpp"
@@ -54,7 +55,8 @@ class RigRenderer {
 
   const HandShape& shape_of(const HandPose& pose);
   void forget_before();
-  bool raster(bool mirrored);
+  bool raster(bool mirrored, const ImagePoint& motion_px);
+  [[nodiscard]] ImagePoint motion_px(const HandPose& hand, bool mirrored) const;
   void add_shadows();
   void compose();
   void compose(const cv::Rect& box);
@@ -63,6 +65,7 @@ class RigRenderer {
   VirtualRigSettings settings_;
   Development development_;
   MirrorBlur mirror_blur_;
+  MotionBlur motion_blur_;
   MeshRaster raster_;
   std::shared_ptr<RigView> view_;
   std::vector<std::shared_ptr<const KnownShape>> shapes_;  // the newest last
@@ -76,6 +79,8 @@ class RigRenderer {
   std::vector<std::array<const RasterVertex*, 3>> triangles_;  // those that face the camera
   std::vector<float> shadow_factor_;                           // of a row
   std::vector<std::uint16_t> shares_;  // of the light that is left, for a row's blue, green and red values
+  bool blurred_ = false;               // the hand is in hand_, else in raster_
+  PictureLayer hand_;
   PictureLayer mirror_image_;
 };
 

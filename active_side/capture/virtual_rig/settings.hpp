@@ -64,6 +64,7 @@ struct SensorLooks {
   double exposure_spread = 0;  // standard deviation of its logarithm from picture to picture
   double blur_px = 0.8;        // standard deviation of the lens' blur
   double sharpening = 0;       // webcams: 0.3 to 1.5 times what a blur of 1 px takes away is added
+  double shutter_s = 0;        // how long it is open: hands that move are blurred; their truth is that of its middle
   int jpeg_quality = 0;        // 1 to 100: pictures go through a JPEG; 0: they don't
 };
 

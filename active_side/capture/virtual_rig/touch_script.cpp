@@ -34,6 +34,15 @@ FingerPlace place_in(const ScriptedTouch& touch, double time_s) {
   return {mix(touch.from, touch.to, share * share * (3 - 2 * share)), 0};
 }
 
+cv::Vec3d velocity_in(const ScriptedTouch& touch, double time_s) {
+  constexpr double half_step_s = 1e-3;
+  const FingerPlace before = place_in(touch, time_s - half_step_s);
+  const FingerPlace after = place_in(touch, time_s + half_step_s);
+  return cv::Vec3d(after.foot.x_mm - before.foot.x_mm, after.foot.y_mm - before.foot.y_mm,
+                   after.hover_mm - before.hover_mm) *
+         (1 / (2 * half_step_s));
+}
+
 const ScriptedTouch* touch_at(const TouchScript& script, double time_s) {
   for (const ScriptedTouch& touch : script.touches) {
     if (time_s >= touch.begin_s - approach_s && time_s <= touch.end_s + approach_s) return &touch;
@@ -55,6 +64,7 @@ std::vector<HandPose> hands_at(const TouchScript& script, double time_s) {
   std::vector<HandPose> hands(1, touch->pose);
   HandPose& pose = hands.front();
   pose.finger = place_in(*touch, time_s);
+  pose.velocity_mm_per_s = velocity_in(*touch, time_s);
   if (touch->beside) {
     pose.second = pose.finger;
     pose.second->foot.x_mm += touch->beside->x_mm;

@@ -60,11 +60,11 @@ Status check_virtual_rig(const VirtualRigSettings& s) {
   }
   if (!within(s.sensor.exposure, 0.001, 1000) || !within(s.sensor.exposure_spread, 0, 2) ||
       !within(s.sensor.auto_exposure, 0, 1) || !within(s.sensor.target_tone, 1, 254) ||
-      !within(s.sensor.blur_px, 0, 2.4) || !within(s.sensor.sharpening, 0, 5) || s.sensor.jpeg_quality < 0 ||
-      s.sensor.jpeg_quality > 100) {
+      !within(s.sensor.blur_px, 0, 2.4) || !within(s.sensor.sharpening, 0, 5) || !within(s.sensor.shutter_s, 0, 1) ||
+      s.sensor.jpeg_quality < 0 || s.sensor.jpeg_quality > 100) {
     return Error{
         "virtual rig: exposure must be 0.001 to 1000, its spread 0 to 2, auto_exposure 0 to 1, target_tone 1 to 254, "
-        "blur_px 0 to 2.4, sharpening 0 to 5, "
+        "blur_px 0 to 2.4, sharpening 0 to 5, shutter_s 0 to 1, "
         "jpeg_quality 0 to 100"};
   }
   if (!within(s.noise_sd, 0, 50)) return Error{"virtual rig: noise_sd must be 0 to 50"};

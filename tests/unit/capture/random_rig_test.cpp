@@ -126,6 +126,37 @@ TEST(RandomFrame, KeepsADistantHandAboveTheBorderInThePicture) {
   }
 }
 
+TEST(RandomFrame, LaysPalmsAcrossTheBorderWithoutATouch) {
+  for (std::uint64_t seed = 0; seed < 12; ++seed) {
+    RandomRig rig = small_rig(seed);
+    rig.settings.noise_sd = 0;
+    rig.settings.sensor.auto_exposure = 0;
+    rig.settings.sensor.exposure_spread = 0;
+    rig.settings.coat.mirror = 0;
+    const RandomFrame frame = random_frame(rig, FrameKind::palm, seed);
+    const std::vector<TruthRow> rows = truth_of(frame, "1");
+    ASSERT_EQ(rows.size(), 1u);
+    EXPECT_FALSE(rows[0].contact);
+    EXPECT_FALSE(rows[0].screen.has_value());
+    EXPECT_EQ(rows[0].notes.rfind("palm", 0), 0u) << rows[0].notes;
+    RigRenderer renderer(rig.settings);
+    cv::Mat without;
+    cv::Mat with;
+    renderer.draw(std::vector<HandPose>{}, 0, without);
+    renderer.draw(frame.hands, 0, with);
+    const double x_mm = frame.hands[0].finger.foot.x_mm;
+    const ImagePoint border = camera_of(rig.settings).project({x_mm, rig.settings.screen.height_mm, 0});
+    cv::Mat change;
+    cv::absdiff(with, without, change);
+    const cv::Rect below(0, static_cast<int>(border.v_px), with.cols, 3);
+    EXPECT_GT(cv::norm(change(below & cv::Rect({0, 0}, with.size())), cv::NORM_INF), 20) << seed;
+    // Nothing touches: all of it stays in front of the screen.
+    const HandShape shape = hand_shape(frame.hands[0], *frame.hands[0].looks);
+    for (const MeshVertex& vertex : shape.mesh.vertices)
+      ASSERT_GT(vertex.place_mm[2] + shape.place_for(frame.hands[0].finger)[2], 0.3F) << seed;
+  }
+}
+
 TEST(RandomGestures, MakeAScriptThatCanBePlayed) {
   for (std::uint64_t seed = 0; seed < 50; ++seed) {
     const VirtualRigSettings s = random_rig(seed).settings;

@@ -247,6 +247,51 @@ TEST(RigFeatures, APictureDoesNotDependOnTheHandsBeforeIt) {
   EXPECT_EQ(cv::norm(bgr, picture(settings), cv::NORM_INF), 0);
 }
 
+TEST(RigFeatures, AMovingHandIsBlurredAlongItsWayAndNowhereElse) {
+  VirtualRigSettings settings = plain_rig();
+  settings.content = ScreenContent::white;
+  settings.hand.skin_tone = 6;
+  // The steepest step across the finger's left or right edge, on the screen.
+  const auto steepest = [&](const HandPose& hand) {
+    const cv::Mat bgr = picture(settings, {hand});
+    int most = 0;
+    for (int u = 100; u < 540; ++u)
+      most = std::max(most, std::abs(bgr.at<cv::Vec3b>(290, u + 1)[1] - bgr.at<cv::Vec3b>(290, u)[1]));
+    return most;
+  };
+  HandPose hand = touch_at(190, 200);
+  const int still = steepest(hand);
+  hand.velocity_mm_per_s = {250, 0, 0};
+  EXPECT_EQ(steepest(hand), still);  // no time, no way
+  settings.sensor.shutter_s = 1.0 / 30;
+  EXPECT_LT(steepest(hand), still / 3);
+  hand.velocity_mm_per_s = {0, 0, 0};
+  EXPECT_EQ(steepest(hand), still);
+}
+
+TEST(RigFeatures, AMovingHandIsSeenWhereItIsInTheMiddleOfTheExposure) {
+  VirtualRigSettings settings = plain_rig();
+  settings.content = ScreenContent::white;
+  settings.hand.skin_tone = 6;
+  const cv::Mat empty = picture(settings);
+  const auto middle_of_finger = [&](double velocity) {
+    HandPose hand = touch_at(190, 200);
+    hand.velocity_mm_per_s = {velocity, 0, 0};
+    const cv::Mat bgr = picture(settings, {hand});
+    double sum = 0;
+    double moment = 0;
+    for (int u = 200; u < 440; ++u) {
+      const double change = empty.at<cv::Vec3b>(290, u)[1] - bgr.at<cv::Vec3b>(290, u)[1];
+      sum += change;
+      moment += change * u;
+    }
+    return moment / sum;
+  };
+  settings.sensor.shutter_s = 1.0 / 30;
+  EXPECT_NEAR(middle_of_finger(250), middle_of_finger(0), 0.7);
+  EXPECT_NEAR(middle_of_finger(-250), middle_of_finger(0), 0.7);
+}
+
 TEST(RigFeatures, JpegLeavesItsMarks) {
   VirtualRigSettings settings = plain_rig();
   settings.content = ScreenContent::desktop;
