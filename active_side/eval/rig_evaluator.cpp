@@ -31,9 +31,9 @@ Status check_choice(const char* option, const std::string& choice) {
 // Reads the pictures of a part in order and collects what is found in each.
 class Evaluation {
  public:
-  explicit Evaluation(EvaluatedRig rig)
-      : calibration_(std::move(rig.calibration)),
-        detector_(std::move(rig.detector)),
+  explicit Evaluation(const EvaluatedRig& rig)
+      : calibration_(rig.calibration),
+        detector_(make_detector(rig.detector, calibration_, rig.empty)),
         model_(upright(calibration_).model()),
         upright_(calibration_.image, is_upside_down(calibration_)),
         tracker_(tracker_options(calibration_, detector_)) {}
@@ -99,23 +99,18 @@ class Evaluation {
   ContactTracker tracker_;
 };
 
-Result<AnyDetector> detector_for(const std::string& choice, const Calibration& calibration, const RigDirectory& rig) {
-  try {
-    if (choice == "thesis") return make_detector(choice, calibration, std::nullopt);
-    const auto picture = picture_of_empty_rig(rig);
-    if (!picture) return picture.error();
-    const BorderStrip::Layout layout = strip_layout(calibration);
-    if (picture->cols != layout.image.width_px || picture->rows != layout.image.height_px) {
-      return Error{fmt::format("{}: the picture with nobody there has {}x{} pixels, but the calibration has {}x{}",
-                               rig.path.string(), picture->cols, picture->rows, layout.image.width_px,
-                               layout.image.height_px)};
-    }
-    BorderStrip empty(layout);
-    empty.sample(UprightPicture(layout.image, is_upside_down(calibration)).of(*picture), layout);
-    return make_detector(choice, calibration, empty);
-  } catch (const std::invalid_argument& problem) {
-    return Error{fmt::format("{}: {}", rig.path.string(), problem.what())};
+Result<BorderStrip> empty_strip(const Calibration& calibration, const RigDirectory& rig) {
+  const auto picture = picture_of_empty_rig(rig);
+  if (!picture) return picture.error();
+  const BorderStrip::Layout layout = strip_layout(calibration);
+  if (picture->cols != layout.image.width_px || picture->rows != layout.image.height_px) {
+    return Error{fmt::format("{}: the picture with nobody there has {}x{} pixels, but the calibration has {}x{}",
+                             rig.path.string(), picture->cols, picture->rows, layout.image.width_px,
+                             layout.image.height_px)};
   }
+  BorderStrip empty(layout);
+  empty.sample(UprightPicture(layout.image, is_upside_down(calibration)).of(*picture), layout);
+  return empty;
 }
 
 }  // namespace
@@ -129,13 +124,22 @@ Result<EvaluatedRig> calibrate_rig(const RigDirectory& recording, const EvalAlgo
                                    const std::vector<int>& calibration) {
   auto calibrated = calibrate_from_recording(recording, algorithm.model, calibration, "");
   if (!calibrated) return calibrated.error();
-  auto detector = detector_for(algorithm.detector, *calibrated, recording);
-  if (!detector) return detector.error();
-  return EvaluatedRig{*std::move(calibrated), *std::move(detector)};
+  EvaluatedRig rig{*std::move(calibrated), algorithm.detector, std::nullopt};
+  try {
+    if (algorithm.detector != "thesis") {
+      auto empty = empty_strip(rig.calibration, recording);
+      if (!empty) return empty.error();
+      rig.empty = *std::move(empty);
+    }
+    (void)make_detector(rig.detector, rig.calibration, rig.empty);
+  } catch (const std::invalid_argument& problem) {
+    return Error{fmt::format("{}: {}", recording.path.string(), problem.what())};
+  }
+  return rig;
 }
 
-EvaluatedPart evaluate_part(EvaluatedRig rig, const RigPart& part) {
-  return Evaluation(std::move(rig)).run(part);
+EvaluatedPart evaluate_part(const EvaluatedRig& rig, const RigPart& part) {
+  return Evaluation(rig).run(part);
 }
 
 }  // namespace telehug

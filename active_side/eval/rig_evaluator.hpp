@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -9,7 +10,7 @@
 #include "capture/rig_directory.hpp"
 #include "common/result.hpp"
 #include "eval/touch_score.hpp"
-#include "finger/any_detector.hpp"
+#include "finger/border_strip.hpp"
 
 namespace telehug {
 
@@ -27,7 +28,8 @@ Status check_algorithm(const EvalAlgorithm& algorithm);
 // A recorded rig as the algorithm sees it after calibration, with nobody there.
 struct EvaluatedRig {
   Calibration calibration;
-  AnyDetector detector;
+  std::string detector;              // as in EvalAlgorithm
+  std::optional<BorderStrip> empty;  // nobody there; the thesis' detector needs none
 };
 
 // `calibration`: numbers of the calibration pictures to use, see rig_calibration.hpp. The error says which picture is
@@ -41,7 +43,7 @@ struct EvaluatedPart {
   std::size_t dropped = 0;              // fingers whose point lay too far outside the screen
 };
 
-// What is found in the pictures of a part: each alone, but those of `sequence` with the tracker.
-EvaluatedPart evaluate_part(EvaluatedRig rig, const RigPart& part);
+// What is found in the pictures of a part by a new detector: each alone, but those of `sequence` with the tracker.
+EvaluatedPart evaluate_part(const EvaluatedRig& rig, const RigPart& part);
 
 }  // namespace telehug

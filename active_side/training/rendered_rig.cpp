@@ -11,7 +11,8 @@ namespace {
 
 constexpr std::array kinds{FrameKind::touch,       FrameKind::hover, FrameKind::touch,     FrameKind::two_fingers,
                            FrameKind::hover,       FrameKind::touch, FrameKind::two_hands, FrameKind::touch,
-                           FrameKind::hover,       FrameKind::away,  FrameKind::touch,     FrameKind::nohand};
+                           FrameKind::hover,       FrameKind::away,  FrameKind::palm,      FrameKind::touch,
+                           FrameKind::nohand};
 
 RandomRig drawn(std::uint64_t seed) {
   RandomRig rig = random_rig(seed);
@@ -104,6 +105,7 @@ RenderedFrame RenderedRig::frame(std::uint64_t index) {
                           looks.finger_width_mm * px_per_mm});
   };
   for (const HandPose& hand : drawn.hands) {
+    if (hand.posture != Posture::pointing) continue;
     add(hand.finger, *hand.looks);
     if (hand.second) add(*hand.second, *hand.looks);
   }
