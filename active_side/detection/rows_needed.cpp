@@ -34,8 +34,7 @@ RowRange rows_needed(const Calibration& calibration) {
   const auto* const rig = std::get_if<RigCalibration>(&turned.solved);
   const auto camera = rig == nullptr ? std::nullopt : std::optional(rig->solution.model.camera);
   const BorderCurve border = border_curve(turned);
-  const RowRange rows =
-      rows_needed(border, calibration.image, px_per_mm_at_border(camera, border, calibration.image));
+  const RowRange rows = rows_needed(border, calibration.image, px_per_mm_at_border(camera, border, calibration.image));
   return is_upside_down(calibration) ? rows.flipped(calibration.image.height_px) : rows;
 }
 

@@ -16,10 +16,10 @@ struct Finger {
   double length_px = 0;  // how far the tip reaches past the image of the screen's bottom edge (thesis: l), > 0
   double left_px = 0;    // columns of the finger's two edges at the border, left_px < right_px
   double right_px = 0;
-  double width_px = 0;       // of the finger right behind its tip; 0: not measured
+  double width_px = 0;  // of the finger right behind its tip; 0: not measured
   // Where it touches, if the detector knows more than its foremost point.
   std::optional<ImagePoint> contact = std::nullopt;
-  double px_per_mm = 0;      // of the picture at the tip; 0: not known
+  double px_per_mm = 0;  // of the picture at the tip; 0: not known
   MirrorEvidence mirror = {};
 };
 

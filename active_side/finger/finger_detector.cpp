@@ -95,10 +95,9 @@ std::optional<Finger> FingerDetector::look_at(const cv::Mat& bgr, ImagePoint tip
     place.middle.v_px = tip.v_px + (0.5 * (TipNet::rows - 1) - TipNet::tip_row) * step_px;
     sample_patch(bgr, place, tip_net_.patch());
     const double half_width_px = image_.width_px / 2.0;
-    look = tip_net_.look((tip.u_px - half_width_px) / half_width_px,
-                         (tip.v_px - image_.height_px / 2.0) / half_width_px);
-    const double moved =
-        std::max(std::abs(look.column - TipNet::tip_column), std::abs(look.row - TipNet::tip_row));
+    look =
+        tip_net_.look((tip.u_px - half_width_px) / half_width_px, (tip.v_px - image_.height_px / 2.0) / half_width_px);
+    const double moved = std::max(std::abs(look.column - TipNet::tip_column), std::abs(look.row - TipNet::tip_row));
     tip = place.picture_point(look.column, look.row);
     if (moved < settled_patch_px) break;
   }

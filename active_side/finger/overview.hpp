@@ -16,8 +16,8 @@
 
 namespace telehug {
 
-// A grid of rows() by columns() cells. It is looked at in tiles, all of its rows by tile_columns(): where nothing differs
-// from the background there is no finger to be found.
+// A grid of rows() by columns() cells. It is looked at in tiles, all of its rows by tile_columns(): where nothing
+// differs from the background there is no finger to be found.
 class Overview {
  public:
   static constexpr double cell_mm = 1.75;
@@ -36,10 +36,10 @@ class Overview {
   // background lies, each far enough from the tile's sides. Allocates nothing.
   const Tiles& tiles(const std::vector<float>& distance);
 
-  // Writes the cells of all rows of some columns, row by row, five values each: blue, green, red (-1 dark to 1 bright), how much the cell
-  // differs from the background (0 not to 1 at all; known on the border strip only, else 0; of the last tiles()), and
-  // how far it is beyond the screen's edge (-1 in front of it to 1 on the screen). `bgr` is CV_8UC3 of the layout's
-  // size. Allocates nothing.
+  // Writes the cells of all rows of some columns, row by row, five values each: blue, green, red (-1 dark to 1 bright),
+  // how much the cell differs from the background (0 not to 1 at all; known on the border strip only, else 0; of the
+  // last tiles()), and how far it is beyond the screen's edge (-1 in front of it to 1 on the screen). `bgr` is CV_8UC3
+  // of the layout's size. Allocates nothing.
   void sample(const cv::Mat& bgr, int first_column, int column_count, float* cells);
 
   [[nodiscard]] int columns() const noexcept { return columns_; }
@@ -68,11 +68,11 @@ class Overview {
   int columns_ = 0;
   int rows_ = 0;
   int tile_columns_ = 0;
-  int cells_of_strip_;              // how many columns of the strip lie in one cell
-  std::vector<int> strip_start_;    // of each cell: the first of them, or -1
-  std::vector<float> beyond_edge_;  // of each cell
-  std::vector<float> difference_;   // of each cell from the background
-  std::vector<int> different_;      // of each column: how many cells are
+  int cells_of_strip_;                // how many columns of the strip lie in one cell
+  std::vector<int> strip_start_;      // of each cell: the first of them, or -1
+  std::vector<float> beyond_edge_;    // of each cell
+  std::vector<float> difference_;     // of each cell from the background
+  std::vector<int> different_;        // of each column: how many cells are
   std::vector<unsigned short> sums_;  // of the picture's columns, over a cell's rows
   Tiles tiles_;
 };

@@ -15,8 +15,8 @@ inline constexpr double patch_px_per_mm = 2.5;
 
 // Where a patch lies in the picture.
 struct PatchPlace {
-  ImagePoint middle;      // of the patch
-  double step_px = 1;     // picture pixels per patch pixel, > 0
+  ImagePoint middle;   // of the patch
+  double step_px = 1;  // picture pixels per patch pixel, > 0
   int columns = 0;
   int rows = 0;
 

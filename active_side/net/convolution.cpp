@@ -29,8 +29,7 @@ Convolution::Convolution(const Tensors& tensors, const std::string& name, const 
     : shape_(shape) {
   expect(xnn_initialize(nullptr), "start");
   const int group_inputs = shape.depthwise ? 1 : shape.inputs;
-  const Tensor& weight =
-      tensor(tensors, name + ".weight", {shape.outputs, shape.kernel, shape.kernel, group_inputs});
+  const Tensor& weight = tensor(tensors, name + ".weight", {shape.outputs, shape.kernel, shape.kernel, group_inputs});
   const Tensor& bias = tensor(tensors, name + ".bias", {shape.outputs});
   const auto kernel = static_cast<std::uint32_t>(shape.kernel);
   const auto stride = static_cast<std::uint32_t>(shape.stride);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The file of a trained net: the line "telehug-net 1", then for each tensor a line "name size size ..." and its numbers,
-// 32 bit floating point, little-endian, the last index fastest. active_side/training writes it.
+// The file of a trained net: the line "telehug-net 1", then for each tensor a line "name size size ..." and its
+// numbers, 32 bit floating point, little-endian, the last index fastest. active_side/training writes it.
 #pragma once
 
 #include <map>

@@ -11,10 +11,10 @@ namespace telehug {
 struct TipLook {
   double column = 0;  // of the contact's middle (hovering: of the finger's foremost point) in the patch, from 0
   double row = 0;
-  double present_logit = 0;  // log odds that a finger ends here
-  double touches_logit = 0;  // that it touches
-  double hover_mm = 0;       // how far it seems to be from the screen
-  double width = 0;          // of the finger, in patch pixels
+  double present_logit = 0;   // log odds that a finger ends here
+  double touches_logit = 0;   // that it touches
+  double hover_mm = 0;        // how far it seems to be from the screen
+  double width = 0;           // of the finger, in patch pixels
   double spread_columns = 0;  // mean absolute errors to be expected
   double spread_rows = 0;
 };

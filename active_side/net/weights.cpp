@@ -2,12 +2,15 @@
 #include "net/weights.hpp"
 
 // The assembler takes the files in; C++20 has no #embed.
-#define TELEHUG_EMBED(symbol, file)                                            \
-  asm(".section .rodata\n"                                                     \
-      ".global " #symbol "\n" #symbol ":\n"                                    \
-      ".incbin \"" TELEHUG_WEIGHTS_FOLDER "/" file "\"\n"                      \
-      ".global " #symbol "_end\n" #symbol "_end:\n"                            \
-      ".byte 0\n"                                                              \
+#define TELEHUG_EMBED(symbol, file)                \
+  asm(".section .rodata\n"                         \
+      ".global " #symbol "\n" #symbol              \
+      ":\n"                                        \
+      ".incbin \"" TELEHUG_WEIGHTS_FOLDER "/" file \
+      "\"\n"                                       \
+      ".global " #symbol "_end\n" #symbol          \
+      "_end:\n"                                    \
+      ".byte 0\n"                                  \
       ".previous\n")
 
 TELEHUG_EMBED(telehug_overview_net, "overview.net");

@@ -115,8 +115,10 @@ void ExampleWriter::write(const RenderedFrame& frame, std::uint64_t seed) {
   for (const TipTruth* tip : patches) {
     // The patch is laid where the overview may have seen the tip.
     const double spread_px = 5 * px_per_mm_at(camera_, tip->place).value_or(1);
-    write_patch(frame, {tip->place.u_px + random.uniform(-spread_px, spread_px),
-                        tip->place.v_px + random.uniform(-spread_px, spread_px)}, tip);
+    write_patch(frame,
+                {tip->place.u_px + random.uniform(-spread_px, spread_px),
+                 tip->place.v_px + random.uniform(-spread_px, spread_px)},
+                tip);
   }
   // One place without a tip: on the screen, or along a finger.
   ImagePoint elsewhere{random.uniform(0.03, 0.97) * frame.bgr.cols, 0};

@@ -5,7 +5,8 @@
 //   the overview's blue, green, red (0..255) and distance (0..255) of every cell, u8
 //   the edge of the screen in every column, in rows of the overview, f32
 //   per tip: column, row (of the overview), crosses, touches, hover_mm, width in cells: 6 x f32
-//   per patch: column, row of its tip in the patch, there is one, touches, hover_mm, its finger's width in patch pixels,
+//   per patch: column, row of its tip in the patch, there is one, touches, hover_mm, its finger's width in patch
+//   pixels,
 //     the tip's place in the picture (from its centre, in halves of its width): 8 x f32; then blue, green, red, u8
 #pragma once
 

@@ -9,9 +9,9 @@
 namespace telehug {
 namespace {
 
-constexpr std::array kinds{FrameKind::touch,       FrameKind::hover, FrameKind::touch,     FrameKind::two_fingers,
-                           FrameKind::hover,       FrameKind::touch, FrameKind::two_hands, FrameKind::touch,
-                           FrameKind::hover,       FrameKind::away,  FrameKind::palm,      FrameKind::touch,
+constexpr std::array kinds{FrameKind::touch, FrameKind::hover, FrameKind::touch,     FrameKind::two_fingers,
+                           FrameKind::hover, FrameKind::touch, FrameKind::two_hands, FrameKind::touch,
+                           FrameKind::hover, FrameKind::away,  FrameKind::palm,      FrameKind::touch,
                            FrameKind::nohand};
 
 RandomRig drawn(std::uint64_t seed) {
@@ -89,7 +89,8 @@ RenderedFrame RenderedRig::frame(std::uint64_t index) {
   RandomNumbers random(seed + 5);
   for (HandPose& hand : drawn.hands) {
     if (random.chance(0.5)) hand.turn_deg = random.uniform(-65, 65);
-    if (random.chance(0.3)) hand.looks->polish = cv::Vec3d(random.uniform(0, 255), random.uniform(0, 255), random.uniform(0, 255));
+    if (random.chance(0.3))
+      hand.looks->polish = cv::Vec3d(random.uniform(0, 255), random.uniform(0, 255), random.uniform(0, 255));
   }
   RenderedFrame frame;
   renderer_->show(view_of(drawn, !picture_.empty() && index % 2 == 1));

@@ -15,8 +15,8 @@ namespace telehug {
 
 // One fingertip in a picture, as the nets shall see it.
 struct TipTruth {
-  ImagePoint place;     // touching: the middle of the contact patch; else the foremost point
-  bool crosses = false; // it is on the screen's side of the bottom edge's image
+  ImagePoint place;      // touching: the middle of the contact patch; else the foremost point
+  bool crosses = false;  // it is on the screen's side of the bottom edge's image
   bool touches = false;
   double hover_mm = 0;
   double width_px = 0;  // of the finger

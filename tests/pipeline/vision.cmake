@@ -7,3 +7,6 @@ telehug_test(test_rows_needed KIND pipeline SUBJECT touch SOURCES pipeline/eval/
   DEPS active_detection active_capture)
 telehug_test(test_eval_rigs KIND pipeline SUBJECT touch SOURCES pipeline/eval_report/eval_rigs_test.cpp
   DEPS active_eval_report)
+telehug_test(test_rendered_fingers KIND pipeline SUBJECT touch TIMEOUT 900
+  SOURCES doubles/allocation_counter.cpp pipeline/eval/rendered_fingers_test.cpp
+  DEPS active_detection active_capture)

@@ -10,12 +10,12 @@
 #include "bench/touch/mjpeg_figures.hpp"
 #include "bench/touch/touch_path.hpp"
 #include "calibration/border_curve.hpp"
-#include "calibration/rig_camera.hpp"
 #include "calibration/rig_model.hpp"
 #include "capture/virtual_rig/random_frame.hpp"
 #include "capture/virtual_rig/random_rig.hpp"
 #include "capture/virtual_rig/rig_renderer.hpp"
 #include "detection/rows_needed.hpp"
+#include "doubles/perfect_calibration.hpp"
 #include "finger/finger_detector.hpp"
 #include "finger/picture_scale.hpp"
 
@@ -24,17 +24,6 @@ namespace {
 
 constexpr std::uint64_t rig_seed = 11;
 constexpr int pictures = 24;
-
-RigCamera known_camera(const VirtualRigSettings& rig) {
-  const RigPoint& place = rig.camera.position_mm;
-  return {{rig.focal_px,
-           rig.distortion_k1,
-           {place[0], place[1], place[2]},
-           rig.camera.pitch_deg,
-           rig.camera.yaw_deg,
-           rig.camera.roll_deg},
-          rig.image};
-}
 
 // Five fingers: two of the left hand, two of the right hand, and one of somebody between them.
 std::vector<HandPose> hands(const RandomRig& rig, int fingers, std::uint64_t seed) {
@@ -60,7 +49,7 @@ Figures measure_default(ImageSize image, int fingers, const std::string& suffix)
   RigRenderer renderer(rig.settings);
   cv::Mat empty;
   renderer.draw(std::vector<HandPose>{}, 0, empty);
-  const RigCamera camera = known_camera(rig.settings);
+  const RigCamera camera = camera_of(rig.settings);
   const BorderCurve border(camera, rig.settings.screen);
   const BorderStrip::Layout layout(border, image);
   BorderStrip background(layout);

@@ -31,8 +31,7 @@ class StagedDetector {
         layout_(border, {empty.cols, empty.rows}),
         strip_(sampled(empty, layout_)),
         background_(layout_, strip_),
-        overview_(border, layout_,
-                  px_per_mm_at(camera, {empty.cols / 2.0, border.v_at(empty.cols / 2.0)}).value_or(1)),
+        overview_(border, layout_, px_per_mm_at(camera, {empty.cols / 2.0, border.v_at(empty.cols / 2.0)}).value_or(1)),
         overview_net_(overview_.rows(), overview_.tile_columns()) {}
 
   StageTimes detect(const cv::Mat& bgr) {

@@ -11,24 +11,10 @@
 #include "capture/virtual_rig/random_rig.hpp"
 #include "capture/virtual_rig/rig_renderer.hpp"
 #include "detection/make_detector.hpp"
+#include "doubles/perfect_calibration.hpp"
 
 namespace telehug {
 namespace {
-
-// As if it had been calibrated without any error.
-Calibration calibration_of(const VirtualRigSettings& rig) {
-  const RigPoint& place = rig.camera.position_mm;
-  const RigCamera camera({rig.focal_px,
-                          rig.distortion_k1,
-                          {place[0], place[1], place[2]},
-                          rig.camera.pitch_deg,
-                          rig.camera.yaw_deg,
-                          rig.camera.roll_deg},
-                         rig.image);
-  RigSolution solution{{camera, 5}, {}, {}, {}, {}, 0, 0};
-  return {
-      "virtual", "", rig.image, rig.screen, border_line(camera, rig.screen), RigCalibration{{}, std::move(solution)}};
-}
 
 TEST(RowsNeeded, AreEnoughForEveryDetector) {
   cv::RNG random(2);

@@ -101,8 +101,9 @@ TEST_F(OverviewTest, LaysTilesAboutAllThatDiffers) {
       bool inside = false;
       for (const int tile : tiles) {
         const double reach = 30;  // a finger may lean so far, unless the picture ends
-        inside = inside || (column - std::min(reach, column) >= tile - 1 &&
-                            std::min<double>(column + reach, overview_.columns()) <= tile + overview_.tile_columns() + 1);
+        inside =
+            inside || (column - std::min(reach, column) >= tile - 1 &&
+                       std::min<double>(column + reach, overview_.columns()) <= tile + overview_.tile_columns() + 1);
       }
       EXPECT_TRUE(inside) << i << " of " << first << " to " << end;
     }
@@ -131,8 +132,10 @@ TEST_F(OverviewTest, ATileIsPartOfTheWhole) {
 TEST_F(OverviewTest, TellsHowFarTheEdgeOfTheScreenIs) {
   sample(cv::Mat::zeros(image.height_px, image.width_px, CV_8UC3));
   for (const int column : {0, 100, 255}) {
-    const double edge = overview_.cell_of({overview_.picture_point(column, 0).u_px,
-                                           border_.v_at(overview_.picture_point(column, 0).u_px)}).v_px;
+    const double edge =
+        overview_
+            .cell_of({overview_.picture_point(column, 0).u_px, border_.v_at(overview_.picture_point(column, 0).u_px)})
+            .v_px;
     for (int row = 0; row < overview_.rows(); ++row)
       EXPECT_NEAR(at(column, row, 4), std::clamp((row - edge) / 16, -1.0, 1.0), 0.02) << column << " " << row;
   }
@@ -175,8 +178,7 @@ TEST(OverviewOf, SmallPicturesAndEdgesNearTheirEndIsPossible) {
         } catch (const std::invalid_argument&) {
           const double cell_px = std::max(1.0, std::round(scale * Overview::cell_mm));
           const double rows_px = (1 - share) * size.height_px + std::min(24 * cell_px, share * size.height_px);
-          EXPECT_LT(std::min<double>(size.width_px, rows_px), 17 * cell_px)
-              << "only few cells are no overview";
+          EXPECT_LT(std::min<double>(size.width_px, rows_px), 17 * cell_px) << "only few cells are no overview";
         }
       }
     }
