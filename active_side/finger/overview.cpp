@@ -18,10 +18,10 @@ constexpr std::size_t channels = 5;
 
 // A finger's tip lies at most so far beside the columns in which it crosses the strip.
 constexpr int usual_tile_columns = 128;
-constexpr int beside_columns = 36;
+constexpr int beside_columns = 30;
 // Standard deviations from the background, and in how many cells of a column; noise hardly ever reaches that.
-constexpr float different = 2;
-constexpr int least_different = 2;
+constexpr float different = 2.5F;
+constexpr int least_different = 3;
 
 // Which rail of the strip lies `offset_px` rows (in pictures 720 rows high) in front of the edge; -1: none.
 int rail_at(double offset_px) {
@@ -86,13 +86,18 @@ const Overview::Tiles& Overview::tiles(const std::vector<float>& distance) {
     }
   }
   tiles_.clear();
-  int covered = 0;  // columns before this one lie in a tile
-  for (int column = 0; column < columns_ && tiles_.size() < most_tiles; ++column) {
-    if (column < covered || different_[static_cast<std::size_t>(column)] < least_different) continue;
-    const int first = std::clamp(column - beside_columns, 0, columns_ - tile_columns_);
-    tiles_.push_back(first);
-    const int end = first + tile_columns_;
-    covered = end < columns_ ? std::max(column + 1, end - beside_columns) : columns_;
+  const auto differs = [this](int column) { return different_[static_cast<std::size_t>(column)] >= least_different; };
+  const int room = std::max(1, tile_columns_ - 2 * beside_columns);
+  for (int column = 0; column < columns_ && tiles_.size() < most_tiles;) {
+    if (!differs(column)) {
+      ++column;
+      continue;
+    }
+    int last = column;
+    for (int i = column; i < std::min(column + room, columns_); ++i)
+      last = differs(i) ? i : last;
+    tiles_.push_back(std::clamp((column + last + 1 - tile_columns_) / 2, 0, columns_ - tile_columns_));
+    column = last + 1;
   }
   return tiles_;
 }

@@ -27,7 +27,7 @@ struct HandPose {
   double lean_deg = 8;    // the finger leans to the thumb's side (> 0: the hand is beside it, away from the thumb)
   double turn_deg = 0;    // about the finger's axis; the nail turns away from the thumb
   double bend_deg = 8;    // of each joint
-  double press_mm = 0.7;  // how far a touching finger is pressed flat
+  double press_mm = 0.2;  // how far a touching finger is pressed flat; a patch 3.5 mm across
   cv::Vec3d velocity_mm_per_s{0, 0, 0};  // of the whole hand, in the rig frame; blurs it while the shutter is open
   std::optional<HandLooks> looks;        // nullopt: those of the rig's settings
 };

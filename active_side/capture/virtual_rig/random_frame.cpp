@@ -183,7 +183,7 @@ HandPose random_pose(const VirtualRigSettings& rig, const HandLooks& looks, cons
   pose.lean_deg = random.uniform(-12, 30);
   pose.turn_deg = random.uniform(-20, 20);
   pose.bend_deg = random.uniform(-12, 18);
-  pose.press_mm = random.uniform(0.3, 1.2);
+  pose.press_mm = random.uniform(0.05, 0.4);
   // The finger's underside must pass above the bezel.
   const double to_bezel_mm = std::max(1.0, rig.screen.height_mm - place.foot.y_mm);
   const double clearance_mm = rig.bezel_raised_mm + 3 - place.hover_mm;

@@ -100,7 +100,7 @@ TEST_F(OverviewTest, LaysTilesAboutAllThatDiffers) {
       const double column = overview_.cell_of({layout_.column_centre_px(i), 0}).u_px;
       bool inside = false;
       for (const int tile : tiles) {
-        const double reach = 30;  // a finger may lean so far, unless the picture ends
+        const double reach = 28;  // a finger may lean so far, unless the picture ends
         inside =
             inside || (column - std::min(reach, column) >= tile - 1 &&
                        std::min<double>(column + reach, overview_.columns()) <= tile + overview_.tile_columns() + 1);
