@@ -29,8 +29,8 @@ MirrorEvidence evidence(const TipLook& look) {
   constexpr double sure = 0.7;
   const double touching = 1 / (1 + std::exp(-look.touches_logit));
   MirrorEvidence said;
-  if (touching >= sure) said = {MirrorState::touching, 0, 0, touching};
-  if (1 - touching >= sure) said = {MirrorState::hovering, 0, look.hover_mm, 1 - touching};
+  if (touching >= sure) said = {MirrorState::touching, 0, touching};
+  if (1 - touching >= sure) said = {MirrorState::hovering, look.hover_mm, 1 - touching};
   return said;
 }
 

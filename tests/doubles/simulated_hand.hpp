@@ -160,7 +160,7 @@ class SimulatedHand {
     bool touching = height_mm < 1.5;
     if (chance(sight.wrong_mirror)) touching = !touching;
     const double confidence = between(0.6, 1);
-    return {touching ? MirrorState::touching : MirrorState::hovering, 0, touching ? 0 : height_mm, confidence};
+    return {touching ? MirrorState::touching : MirrorState::hovering, touching ? 0 : height_mm, confidence};
   }
 
   std::mt19937 random_;

@@ -172,7 +172,7 @@ TEST(RenderedFingers, ThatHoverOverAMirrorAreSeenToHover) {
       }
     }
   }
-  ASSERT_GT(hovering, 50);
+  ASSERT_GT(hovering, 30);
   EXPECT_LE(taken_for_touch, 0.08 * hovering) << "of " << hovering;
   EXPECT_LE(taken_for_hover, 0.05 * touching) << "of " << touching;
 }
