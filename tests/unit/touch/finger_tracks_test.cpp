@@ -31,7 +31,7 @@ FingerObservation seen_at(double x_mm, double y_mm, double z_mm = 0, MirrorState
       {camera.foot.x_mm + nearer * (x_mm - camera.foot.x_mm), camera.foot.y_mm + nearer * (y_mm - camera.foot.y_mm)},
       15 * nearer,
       1000 / (y_mm - camera.foot.y_mm),
-      {mirror, 0, z_mm, 1},
+      {mirror, z_mm, 1},
       1};
 }
 
