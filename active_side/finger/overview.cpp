@@ -13,6 +13,7 @@ namespace {
 
 constexpr double edge_reach_cells = 16;  // the distance from the edge is told up to here
 constexpr int least_cells = 16;
+constexpr int rows_beyond = 8;  // as the nets learned: fingers may end right at the picture's end
 constexpr int most_cell_px = 64;
 constexpr std::size_t channels = 5;
 
@@ -52,15 +53,16 @@ Overview::Overview(const BorderCurve& border, const BorderStrip::Layout& strip, 
   const ImageSize& image = strip.image;
   columns_ = image.width_px / cell_px_;
   tile_columns_ = std::min(columns_, usual_tile_columns);
-  rows_ = (image.height_px - first_row_px_) / cell_px_;
-  if (columns_ < least_cells || rows_ < least_cells) {
+  seen_rows_ = (image.height_px - first_row_px_) / cell_px_;
+  if (columns_ < least_cells || seen_rows_ < least_cells) {
     throw std::invalid_argument("too little of the screen is in the picture to look for fingers");
   }
+  rows_ = seen_rows_ + rows_beyond;
   sums_.resize(static_cast<std::size_t>(columns_ * cell_px_) * 3);
   different_.resize(static_cast<std::size_t>(columns_));
   for (int row = 0; row < rows_; ++row) {
     for (int column = 0; column < columns_; ++column) {
-      const ImagePoint middle = picture_point(column, row);
+      const ImagePoint middle = picture_point(column, std::min(row, seen_rows_ - 1));
       const double beyond_px = middle.v_px - border.v_at(middle.u_px);
       const int rail = rail_at(-beyond_px / strip.scale);
       const int first = std::clamp(column * cell_px_ / strip.column_px, 0, strip.columns - cells_of_strip_);
@@ -135,7 +137,8 @@ void Overview::average_row(const std::uint8_t* pixels, std::size_t row_bytes, in
 void Overview::sample(const cv::Mat& bgr, int first_column, int column_count, float* cells) {
   const auto first_byte = static_cast<std::ptrdiff_t>(first_column) * cell_px_ * 3;
   for (int row = 0; row < rows_; ++row, cells += static_cast<std::size_t>(column_count) * channels) {
-    const auto* const pixels = bgr.ptr<std::uint8_t>(first_row_px_ + row * cell_px_) + first_byte;
+    const int seen_row = std::min(row, seen_rows_ - 1);
+    const auto* const pixels = bgr.ptr<std::uint8_t>(first_row_px_ + seen_row * cell_px_) + first_byte;
     switch (cell_px_) {
       case 4:
         average_row<4>(pixels, bgr.step[0], column_count, cells);

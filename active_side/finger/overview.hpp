@@ -16,8 +16,8 @@
 
 namespace telehug {
 
-// A grid of rows() by columns() cells. It is looked at in tiles, all of its rows by tile_columns(): where nothing
-// differs from the background there is no finger to be found.
+// A grid of rows() by columns() cells; the last rows repeat the last one that the picture holds. It is looked at in
+// tiles, all of its rows by tile_columns(): where nothing differs from the background there is no finger to be found.
 class Overview {
  public:
   static constexpr double cell_mm = 1.75;
@@ -67,6 +67,7 @@ class Overview {
   int first_row_px_ = 0;
   int columns_ = 0;
   int rows_ = 0;
+  int seen_rows_ = 0;
   int tile_columns_ = 0;
   int cells_of_strip_;                // how many columns of the strip lie in one cell
   std::vector<int> strip_start_;      // of each cell: the first of them, or -1

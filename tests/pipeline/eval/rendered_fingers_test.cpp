@@ -9,6 +9,7 @@
 #include <map>
 #include <memory>
 #include <opencv2/core.hpp>
+#include <string>
 #include <vector>
 
 #include "capture/virtual_rig/random_frame.hpp"
@@ -67,10 +68,11 @@ class WatchedRig {
 struct Errors {
   std::size_t touches = 0;
   std::size_t missed = 0;  // or farther than 10 mm
+  std::string which;
   std::vector<double> vertical_mm;
   std::vector<double> horizontal_mm;
 
-  void add(WatchedRig& rig, const Fingers& fingers, const FingerPlace& truth) {
+  void add(const WatchedRig& rig, const Fingers& fingers, const FingerPlace& truth, const std::string& picture) {
     ++touches;
     double nearest_mm = 10;
     ScreenPoint nearest{};
@@ -83,6 +85,7 @@ struct Errors {
     }
     if (nearest_mm >= 10) {
       ++missed;
+      which += picture + " ";
       return;
     }
     vertical_mm.push_back(std::abs(nearest.y_mm - truth.foot.y_mm));
@@ -104,8 +107,9 @@ Errors errors_of(FrameKind kind, std::uint64_t frames) {
       const RandomFrame drawn = rig.draw(kind, seed * 100 + frame);
       const Fingers& fingers = rig.detect();
       for (const HandPose& hand : drawn.hands) {
-        errors.add(rig, fingers, hand.finger);
-        if (hand.second) errors.add(rig, fingers, *hand.second);
+        const std::string picture = std::to_string(seed) + "/" + std::to_string(frame);
+        errors.add(rig, fingers, hand.finger, picture);
+        if (hand.second) errors.add(rig, fingers, *hand.second, picture);
       }
     }
   }
@@ -114,7 +118,7 @@ Errors errors_of(FrameKind kind, std::uint64_t frames) {
 
 TEST(RenderedFingers, AreFoundWhereTheyTouch) {
   const Errors errors = errors_of(FrameKind::touch, 8);
-  EXPECT_LE(errors.missed, 3U) << "of " << errors.touches;
+  EXPECT_LE(errors.missed, 3U) << "of " << errors.touches << ": " << errors.which;
   EXPECT_LT(Errors::mean(errors.vertical_mm), 1.3);
   EXPECT_LT(Errors::mean(errors.horizontal_mm), 0.8);
   RecordProperty("vertical_mm", std::to_string(Errors::mean(errors.vertical_mm)));
@@ -124,14 +128,14 @@ TEST(RenderedFingers, AreFoundWhereTheyTouch) {
 
 TEST(RenderedFingers, OfOneHandAreBothFound) {
   const Errors errors = errors_of(FrameKind::two_fingers, 4);
-  EXPECT_LE(errors.missed, 4U) << "of " << errors.touches;
+  EXPECT_LE(errors.missed, 4U) << "of " << errors.touches << ": " << errors.which;
   EXPECT_LT(Errors::mean(errors.vertical_mm), 1.5);
   EXPECT_LT(Errors::mean(errors.horizontal_mm), 0.9);
 }
 
 TEST(RenderedFingers, OfTwoHandsAreBothFound) {
   const Errors errors = errors_of(FrameKind::two_hands, 4);
-  EXPECT_LE(errors.missed, 4U) << "of " << errors.touches;
+  EXPECT_LE(errors.missed, 4U) << "of " << errors.touches << ": " << errors.which;
   EXPECT_LT(Errors::mean(errors.vertical_mm), 1.5);
   EXPECT_LT(Errors::mean(errors.horizontal_mm), 0.9);
 }

@@ -14,6 +14,7 @@ HandPose touching(double approach_deg, double lean_deg = 0) {
   pose.finger = {{200, 150}, 0};
   pose.approach_deg = approach_deg;
   pose.lean_deg = lean_deg;
+  pose.press_mm = 0.7;  // so much that the patch is larger than the mesh is fine
   return pose;
 }
 
