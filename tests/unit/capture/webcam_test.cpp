@@ -108,7 +108,8 @@ TEST_F(AWebcam, CountsAPictureThatIsDamagedInTheRowsThatAreNeeded) {
   ASSERT_TRUE(webcam_.open());
   webcam_.need_rows({48});
   auto cut = jpeg_of(sloping_picture(128, 72));
-  cut.resize(cut.size() - 20);
+  ASSERT_GT(cut.size(), 20U);
+  cut.erase(cut.end() - 20, cut.end());
   EXPECT_EQ(read_one(cut), ReadOutcome::broken);
   EXPECT_EQ(read_one(jpeg()), ReadOutcome::frame);
   EXPECT_EQ(webcam_.broken_frames(), 1u);
