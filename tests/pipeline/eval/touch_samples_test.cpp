@@ -304,9 +304,9 @@ TEST_P(TouchSamples, AreFoundByTheDefaultWithinMillimetres) {
       horizontal_mm += std::abs(touch.horizontal_error_mm);
     }
     const auto near = static_cast<double>(report.score->touches.size() - far);
-    EXPECT_LE(far, 1U) << rig;
-    EXPECT_LT(vertical_mm / near, 2.6) << rig;
-    EXPECT_LT(horizontal_mm / near, 1.8) << rig;
+    EXPECT_EQ(far, 0U) << rig;
+    EXPECT_LT(vertical_mm / near, 1.45) << rig;
+    EXPECT_LT(horizontal_mm / near, 0.95) << rig;
     std::size_t false_touches = 0;
     for (const ScoredRest& rest : report.score->rests)
       false_touches += rest.kind == "hover" ? 0 : rest.false_touches.size();
