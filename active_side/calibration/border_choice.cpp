@@ -11,6 +11,10 @@ namespace {
 // Half the difference of two sums of squares: the second is e^-4.5 times as likely as the first, three standard
 // deviations.
 constexpr double clear_margin = 4.5;
+// What the right edge adds to half the sum of squares: half a unit for each of its points, and what they bend beyond
+// the model. An edge that adds more contradicts the touches.
+constexpr double cost_per_point = 1;
+constexpr double most_besides = 15;
 
 struct Trial {
   std::size_t candidate;
@@ -40,7 +44,9 @@ Result<BorderChosen> solve_with_border(RigObservations observations, const std::
     if (candidates[i].points.empty()) continue;
     Trial trial{i, observations, *without};
     trial.observations.border = candidates[i].points;
-    if (auto solution = solve_rig(trial.observations, known); solution) {
+    const double most =
+        without->cost + cost_per_point * static_cast<double>(trial.observations.border.size()) + most_besides;
+    if (auto solution = solve_rig(trial.observations, known); solution && solution->cost <= most) {
       trial.solution = *std::move(solution);
       trials.push_back(std::move(trial));
     }

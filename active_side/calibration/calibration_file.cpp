@@ -52,8 +52,8 @@ void add(toml::table& table, const RigCalibration& rig) {
   toml::array touches;
   for (std::size_t i = 0; i < rig.observations.touches.size(); ++i) {
     toml::table touch = to_table(rig.observations.touches[i]);
-    const bool dot = rig.observations.touches[i].evidence == TouchEvidence::dot;
-    touch.insert("seen", dot ? "dot" : "fingertip");
+    touch.insert("seen", name_of(rig.observations.touches[i].evidence));
+    if (rig.observations.touches[i].left_out) touch.insert("left_out", true);
     touch.insert("error_x_mm", rig.solution.touches[i].error_mm.x_mm);
     touch.insert("error_y_mm", rig.solution.touches[i].error_mm.y_mm);
     touches.push_back(std::move(touch));

@@ -34,9 +34,11 @@
 //   y_mm = 100.0
 //   u_px = 645.3
 //   v_px = 588.1
-//   seen = "dot"                         # what is there: the dot's centre, or (and without it) the "fingertip"
+//   seen = "dot"                         # what is there: the dot's centre, the "contact" of a finger, or (and without
+//                                        # it) the finger's foremost point, "fingertip"
 //   sigma_u_px = 0.5
 //   sigma_v_px = 0.5
+//   left_out = true                      # only if it contradicted the others and was not used
 //   error_x_mm = 0.1                     # where the model places it, minus where it was; for people to read
 //   error_y_mm = -0.3
 //   [[mark]]                             # flat on the screen, as a touch; none, if none was seen

@@ -18,11 +18,12 @@ constexpr double worth_repeating_sd = 4;
 // An exchange of two touches must explain this part of the robust cost to be believed.
 constexpr double explained_part = 0.7;
 
-double touch_rms_mm(const RigSolution& solution) {
+double touch_rms_mm(const RigCalibration& calibration) {
+  const RigSolution& solution = calibration.solution;
   double squares = 0;
   std::size_t count = 0;
   for (std::size_t i = 0; i < solution.touches.size(); ++i) {
-    if (solution.bad_touch == i) continue;
+    if (solution.bad_touch == i || calibration.observations.touches[i].left_out) continue;
     const ScreenPoint& error = solution.touches[i].error_mm;
     squares += error.x_mm * error.x_mm + error.y_mm * error.y_mm;
     ++count;
@@ -59,12 +60,16 @@ std::optional<std::pair<std::size_t, std::size_t>> exchanged_touches(const RigCa
   const auto bad = std::count_if(calibration.solution.touches.begin(), calibration.solution.touches.end(),
                                  [](const TouchResidual& touch) { return touch.standardised > worth_repeating_sd; });
   if (bad < 2) return std::nullopt;
-  const double bound = (1 - explained_part) * calibration.solution.cost;
+  RigObservations all = calibration.observations;
+  for (PointObservation& touch : all.touches)
+    touch.left_out = false;
+  const auto together = solve_rig(all, {std::nullopt, std::nullopt, false});
+  if (!together) return std::nullopt;
   std::optional<std::pair<std::size_t, std::size_t>> best;
-  double least = bound;
-  for (std::size_t a = 0; a < calibration.observations.touches.size(); ++a) {
-    for (std::size_t b = a + 1; b < calibration.observations.touches.size(); ++b) {
-      RigObservations exchanged = calibration.observations;
+  double least = (1 - explained_part) * together->cost;
+  for (std::size_t a = 0; a < all.touches.size(); ++a) {
+    for (std::size_t b = a + 1; b < all.touches.size(); ++b) {
+      RigObservations exchanged = all;
       std::swap(exchanged.touches[a].screen, exchanged.touches[b].screen);
       const auto solution = solve_rig(exchanged, {std::nullopt, std::nullopt, false});
       if (!solution || solution->cost >= least) continue;
@@ -80,7 +85,7 @@ void judge_touches(const RigCalibration& calibration, const std::vector<ScreenPo
   const RigSolution& solution = calibration.solution;
   if (solution.touches.empty()) return;
   const std::size_t worst = worst_touch(solution);
-  const double rms_mm = touch_rms_mm(solution);
+  const double rms_mm = touch_rms_mm(calibration);
   if (rms_mm > limits.touch_rms_mm) {
     verdict.faults.push_back(fmt::format("the touches contradict each other by {:.1f} mm, more than {:.0f} mm", rms_mm,
                                          limits.touch_rms_mm));

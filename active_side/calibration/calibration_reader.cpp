@@ -86,6 +86,7 @@ Result<Calibration> CalibrationReader::with_rig_model(const Common& c) {
   if (!solution) return Error{fmt::format("{}: {}", file_.string(), solution.error().message)};
   const RigModel model = make_rig_model(stored, c.image, picture);
   for (std::size_t i = 0; i < observations.touches.size(); ++i) {
+    if (observations.touches[i].left_out) continue;
     const auto here = touched_point(model, observations.touches[i]);
     const auto solved = touched_point(solution->model, observations.touches[i]);
     if (here && solved && std::hypot(here->x_mm - solved->x_mm, here->y_mm - solved->y_mm) < largest_contradiction_mm) {
@@ -175,7 +176,8 @@ std::vector<PointObservation> CalibrationReader::points(const char* name) {
                      {number(point, "u_px", any_number), number(point, "v_px", any_number)},
                      number(point, "sigma_u_px", {least_sigma_px, 1000}),
                      number(point, "sigma_v_px", {least_sigma_px, 1000}),
-                     evidence(point)});
+                     evidence(point),
+                     left_out(point)});
   }
   return found;
 }
@@ -185,9 +187,18 @@ TouchEvidence CalibrationReader::evidence(const Section& from) {
   const toml::node* node = from.table->get("seen");
   if (node == nullptr) return TouchEvidence::fingertip;
   const std::string what = node->value_or(std::string{});
-  if (what == "dot") return TouchEvidence::dot;
-  if (what != "fingertip") fault(line_of(node, from.line), "seen must be \"fingertip\" or \"dot\"");
+  for (const TouchEvidence evidence : {TouchEvidence::dot, TouchEvidence::contact, TouchEvidence::fingertip}) {
+    if (what == name_of(evidence)) return evidence;
+  }
+  fault(line_of(node, from.line), "seen must be \"fingertip\", \"dot\" or \"contact\"");
   return TouchEvidence::fingertip;
+}
+
+bool CalibrationReader::left_out(const Section& from) {
+  const toml::node* node = from.table->get("left_out");
+  const auto value = node != nullptr ? node->value<bool>() : std::optional(false);
+  if (!value) fault(line_of(node, from.line), "left_out must be true or false");
+  return value.value_or(false);
 }
 
 std::vector<BorderObservation> CalibrationReader::border_points() {

@@ -47,6 +47,7 @@ class CalibrationReader {
   std::array<MeasuredTouch, 2> thesis_touches();
   std::vector<PointObservation> points(const char* name);
   TouchEvidence evidence(const Section& from);
+  bool left_out(const Section& from);
   std::vector<BorderObservation> border_points();
   RigParameters parameters(const Section& from);
   PictureOrientation orientation(const Section& from);

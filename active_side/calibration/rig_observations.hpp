@@ -13,8 +13,22 @@
 
 namespace telehug {
 
-// What of a touch the image point is: the finger's foremost point, or the dot on the screen that the finger touches.
-enum class TouchEvidence { fingertip, dot };
+// What of a touch the image point is: the finger's foremost point, the dot on the screen that the finger touches, or
+// where the finger touches the screen.
+enum class TouchEvidence { fingertip, dot, contact };
+
+// As the calibration file and people call it: "fingertip", "dot", "contact".
+[[nodiscard]] constexpr const char* name_of(TouchEvidence evidence) noexcept {
+  switch (evidence) {
+    case TouchEvidence::dot:
+      return "dot";
+    case TouchEvidence::contact:
+      return "contact";
+    case TouchEvidence::fingertip:
+      break;
+  }
+  return "fingertip";
+}
 
 // A point of the screen and where the picture shows it. Standard deviations are of the image point, > 0.
 struct PointObservation {
@@ -22,7 +36,8 @@ struct PointObservation {
   ImagePoint image;
   double sigma_u_px = 1;
   double sigma_v_px = 1;
-  TouchEvidence evidence = TouchEvidence::fingertip;  // of touches; marks are like dots
+  TouchEvidence evidence = TouchEvidence::fingertip;  // of touches; marks and contacts are like dots
+  bool left_out = false;                              // contradicts the others: kept to be told of, not used
 };
 
 // An image point on the image of the screen's bottom edge; where on the edge is not known.

@@ -14,12 +14,12 @@ std::optional<ImagePoint> difference(const std::optional<ImagePoint>& expected, 
 }  // namespace
 
 std::optional<ImagePoint> touch_residual(const RigModel& model, const PointObservation& touch) {
-  if (touch.evidence == TouchEvidence::dot) return mark_residual(model, touch);
+  if (touch.evidence != TouchEvidence::fingertip) return mark_residual(model, touch);
   return difference(tip_of_contact(model.camera, model.contact_radius_mm, touch.screen), touch.image);
 }
 
 std::optional<ScreenPoint> touched_point(const RigModel& model, const PointObservation& touch) {
-  if (touch.evidence == TouchEvidence::dot) return model.camera.screen_point(touch.image);
+  if (touch.evidence != TouchEvidence::fingertip) return model.camera.screen_point(touch.image);
   return model.screen_point(touch.image);
 }
 

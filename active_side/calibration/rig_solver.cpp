@@ -24,8 +24,9 @@ constexpr std::size_t least_touches_to_leave_one_out = 5;
 std::string fault_of(const RigObservations& o) {
   if (!(o.screen.width_mm > 0) || !(o.screen.height_mm > 0)) return "the screen's size is not known";
   if (o.image.width_px <= 0 || o.image.height_px <= 0) return "the picture's size is not known";
-  if (o.touches.size() + o.marks.size() < 2) {
-    return fmt::format("{} touches are too few: touch two points at least", o.touches.size());
+  const auto used = std::count_if(o.touches.begin(), o.touches.end(), [](const auto& t) { return !t.left_out; });
+  if (static_cast<std::size_t>(used) + o.marks.size() < 2) {
+    return fmt::format("{} touches are too few: touch two points at least", used);
   }
   const auto impossible = [](const PointObservation& p) {
     return !std::isfinite(p.screen.x_mm) || !std::isfinite(p.screen.y_mm) || !std::isfinite(p.image.u_px) ||
@@ -129,6 +130,19 @@ double standardised(const RigModel& model, const PointObservation& touch) {
   return residual ? std::hypot(residual->u_px / touch.sigma_u_px, residual->v_px / touch.sigma_v_px) : infinite;
 }
 
+RigObservations used_of(const RigObservations& all) {
+  RigObservations used = all;
+  std::erase_if(used.touches, [](const PointObservation& touch) { return touch.left_out; });
+  return used;
+}
+
+// Of the used touch with this index, the index among all.
+std::size_t index_among(const RigObservations& all, std::size_t used) {
+  for (std::size_t i = 0;; ++i) {
+    if (!all.touches[i].left_out && used-- == 0) return i;
+  }
+}
+
 RigObservations without(const RigObservations& all, std::size_t touch) {
   RigObservations rest = all;
   rest.touches.erase(rest.touches.begin() + static_cast<std::ptrdiff_t>(touch));
@@ -202,14 +216,15 @@ Result<RigSolution> solve_rig(const RigObservations& observations, const RigSolv
 
   std::vector<PictureOrientation> orientations{{false, false}, {true, false}, {true, true}, {false, true}};
   if (options.orientation) orientations = {*options.orientation};
-  const Fit best = best_fit(observations, priors, orientations);
+  const RigObservations used = used_of(observations);
+  const Fit best = best_fit(used, priors, orientations);
   if (!std::isfinite(best.cost)) {
     return Error{"no camera on top of this screen sees the touches like this: check the screen's size, touch again"};
   }
-  const auto bad = options.leave_out_bad_touch ? find_bad_touch(observations, priors, best) : std::nullopt;
-  const RigLeastSquares used(bad ? without(observations, bad->touch) : observations, priors, best.orientation);
-  RigSolution solution = describe(observations, used, bad ? bad->fit.parameters : best.parameters, best.orientation);
-  if (bad) solution.bad_touch = bad->touch;
+  const auto bad = options.leave_out_bad_touch ? find_bad_touch(used, priors, best) : std::nullopt;
+  const RigLeastSquares problem(bad ? without(used, bad->touch) : used, priors, best.orientation);
+  RigSolution solution = describe(observations, problem, bad ? bad->fit.parameters : best.parameters, best.orientation);
+  if (bad) solution.bad_touch = index_among(observations, bad->touch);
   solution.cost = best.cost;
   return solution;
 }

@@ -26,7 +26,7 @@ struct RigSolution {
   RigModel model;
   RigParameters parameters{};
   RigCovariance covariance{};            // of the parameters, priors included
-  std::vector<TouchResidual> touches;    // one a touch, the excluded one too
+  std::vector<TouchResidual> touches;    // one a touch, excluded ones too
   std::optional<std::size_t> bad_touch;  // index of the touch that contradicts all others and was left out
   double cost = 0;                       // half the robust sum of squares, priors included: to compare two solutions
   double reduced_chi2 = 0;               // about 1 if the standard deviations are right

@@ -99,11 +99,13 @@ Result<CalibratedRig> calibrate(const Options& options, const ActiveConfig& conf
   return calibrate_by_hand(**camera, by_hand, utc_now(), std::cin, std::cout);
 }
 
-double largest_error_mm(const RigSolution& solution) {
+double largest_error_mm(const RigCalibration& rig) {
+  const RigSolution& solution = rig.solution;
   double largest = 0;
   for (std::size_t i = 0; i < solution.touches.size(); ++i) {
     const ScreenPoint& error = solution.touches[i].error_mm;
-    if (solution.bad_touch != i) largest = std::max(largest, std::hypot(error.x_mm, error.y_mm));
+    if (solution.bad_touch != i && !rig.observations.touches[i].left_out)
+      largest = std::max(largest, std::hypot(error.x_mm, error.y_mm));
   }
   return largest;
 }
@@ -113,8 +115,8 @@ void print_touches(const RigCalibration& rig) {
     const PointObservation& touch = rig.observations.touches[i];
     const ScreenPoint& error = rig.solution.touches[i].error_mm;
     fmt::print("touch {} at {:.0f},{:.0f} mm: {} {:+.2f} mm to the right, {:+.2f} mm down{}\n", i + 1,
-               touch.screen.x_mm, touch.screen.y_mm, touch.evidence == TouchEvidence::dot ? "dot" : "fingertip",
-               error.x_mm, error.y_mm, rig.solution.bad_touch == i ? ", not used" : "");
+               touch.screen.x_mm, touch.screen.y_mm, name_of(touch.evidence), error.x_mm, error.y_mm,
+               rig.solution.bad_touch == i || touch.left_out ? ", not used" : "");
   }
 }
 
@@ -130,7 +132,7 @@ Status judge(const Calibration& calibration) {
   for (const std::string& advice : verdict.advice)
     fmt::print("{}\n", advice);
   fmt::print("picture: {}; {} touches agree within {:.1f} mm\n", rig->solution.model.camera.orientation().name(),
-             dots.size(), largest_error_mm(rig->solution));
+             dots.size(), largest_error_mm(*rig));
   if (verdict.good()) return Done{};
   return Error{fmt::format("the calibration is not saved: {}", fmt::join(verdict.faults, "; "))};
 }

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "eval/virtual_rig_eval.hpp"
 
+#include <fmt/format.h>
+
 #include <exception>
 #include <utility>
 #include <variant>
 
+#include "calibration/calibration_policy.hpp"
 #include "capture/rig_directory.hpp"
 #include "capture/virtual_rig/export_rig.hpp"
 #include "capture/virtual_rig/random_rig.hpp"
@@ -52,12 +55,26 @@ std::vector<ScreenPoint> calibration_errors(const Calibration& calibration) {
   return errors;
 }
 
+// A calibration that `calibrate` would not save, with its reasons; empty if it would.
+std::string refusal(const Calibration& calibration) {
+  const auto* const rig = std::get_if<RigCalibration>(&calibration.solved);
+  if (rig == nullptr) return "";
+  std::vector<ScreenPoint> dots;
+  for (const PointObservation& touch : rig->observations.touches)
+    dots.push_back(touch.screen);
+  return fmt::format("{}", fmt::join(judge_calibration(*rig, dots).faults, "; "));
+}
+
 AlgorithmOutcome outcome_of(const EvalAlgorithm& algorithm, const RigDirectory& recording, bool failure_pictures) {
   AlgorithmOutcome outcome;
   try {
     const auto rig = calibrate_rig(recording, algorithm, {});
     if (!rig) {
       outcome.failure = rig.error().message;
+      return outcome;
+    }
+    if (std::string why = refusal(rig->calibration); !why.empty()) {
+      outcome.failure = std::move(why);
       return outcome;
     }
     outcome.calibration_errors_mm = calibration_errors(rig->calibration);

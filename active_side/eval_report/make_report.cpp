@@ -63,10 +63,9 @@ void add_calibration(const Calibration& calibration, Report& report) {
                                                            solution.reduced_chi2, solution.border_rms_px));
   for (std::size_t i = 0; i < solution.touches.size(); ++i) {
     const PointObservation& seen = rig->observations.touches[i];
-    report.calibration.push_back(
-        {fmt::format("{} {}{}", i + 1, seen.evidence == TouchEvidence::dot ? "dot" : "fingertip",
-                     solution.bad_touch == i ? ", left out" : ""),
-         seen.screen, solution.touches[i].error_mm});
+    report.calibration.push_back({fmt::format("{} {}{}", i + 1, name_of(seen.evidence),
+                                              solution.bad_touch == i || seen.left_out ? ", left out" : ""),
+                                  seen.screen, solution.touches[i].error_mm});
   }
 }
 

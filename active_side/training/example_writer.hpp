@@ -12,9 +12,13 @@
 
 #include <cstdint>
 #include <fstream>
+#include <utility>
+#include <vector>
 
+#include "capture/virtual_rig/random_numbers.hpp"
 #include "finger/background_strip.hpp"
 #include "finger/overview.hpp"
+#include "net/overview_net.hpp"
 #include "rendered_rig.hpp"
 
 namespace telehug {
@@ -31,6 +35,10 @@ class ExampleWriter {
   void write(const RenderedFrame& frame, std::uint64_t seed);
 
  private:
+  // Where a patch is laid, and the tip in it.
+  using Places = std::vector<std::pair<ImagePoint, const TipTruth*>>;
+
+  Places patch_places(const RenderedFrame& frame, RandomNumbers& random);
   void write_patch(const RenderedFrame& frame, const ImagePoint& middle, const TipTruth* tip);
 
   std::ofstream& file_;
@@ -41,6 +49,7 @@ class ExampleWriter {
   BorderStrip strip_;
   BackgroundStrip background_;
   Overview overview_;
+  OverviewNet net_;
 };
 
 }  // namespace telehug

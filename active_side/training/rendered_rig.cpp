@@ -10,9 +10,9 @@ namespace telehug {
 namespace {
 
 constexpr std::array kinds{FrameKind::touch, FrameKind::hover, FrameKind::touch,     FrameKind::two_fingers,
-                           FrameKind::hover, FrameKind::touch, FrameKind::two_hands, FrameKind::touch,
+                           FrameKind::hover, FrameKind::palm,  FrameKind::two_hands, FrameKind::touch,
                            FrameKind::hover, FrameKind::away,  FrameKind::palm,      FrameKind::touch,
-                           FrameKind::nohand};
+                           FrameKind::palm};
 
 RandomRig drawn(std::uint64_t seed) {
   RandomRig rig = random_rig(seed);
@@ -85,12 +85,14 @@ RandomFrame RenderedRig::random_picture(FrameKind kind, std::uint64_t seed) cons
 RenderedFrame RenderedRig::frame(std::uint64_t index) {
   const std::uint64_t seed = rig_.settings.seed * 1000 + index;
   RandomFrame drawn = random_picture(kinds[index % kinds.size()], seed);
-  // Fingers that lie on their side are seldom, and hardest to see through: nail and pad are both at their end.
+  // Fingers that lie on their side, long nails and gloves are seldom, and hardest to see through.
   RandomNumbers random(seed + 5);
   for (HandPose& hand : drawn.hands) {
     if (random.chance(0.5)) hand.turn_deg = random.uniform(-65, 65);
     if (random.chance(0.3))
       hand.looks->polish = cv::Vec3d(random.uniform(0, 255), random.uniform(0, 255), random.uniform(0, 255));
+    if (random.chance(0.15)) hand.looks->nail_mm = random.uniform(3, 12);
+    if (random.chance(0.12)) hand.looks->sleeve = Sleeve::glove;
   }
   RenderedFrame frame;
   renderer_->show(view_of(drawn, !picture_.empty() && index % 2 == 1));

@@ -9,10 +9,13 @@ telehug_test(test_rig_solver KIND unit SUBJECT touch TIMEOUT 900
   DEPS active_calibration)
 telehug_test(test_rig_calibration KIND unit SUBJECT touch TIMEOUT 900
   SOURCES unit/calibration/border_choice_test.cpp unit/calibration/calibration_policy_test.cpp
+          unit/calibration/consistent_touches_test.cpp
           unit/calibration/rig_calibration_file_test.cpp unit/calibration/two_touch_calibration_test.cpp
   DEPS active_calibration)
 telehug_test(test_calibration_dot KIND unit SUBJECT touch SOURCES unit/calibration/calibration_dot_test.cpp
   DEPS active_calibration opencv::imgproc)
+telehug_test(test_touch_calibration KIND unit SUBJECT touch SOURCES unit/detection/touch_calibration_test.cpp
+  DEPS active_detection opencv::imgproc)
 telehug_test(test_drift_watch KIND unit SUBJECT touch
   SOURCES doubles/allocation_counter.cpp unit/calibration/drift_watch_test.cpp DEPS active_calibration)
 telehug_test(test_net KIND unit SUBJECT touch

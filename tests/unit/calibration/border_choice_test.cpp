@@ -72,6 +72,19 @@ TEST(BorderChoice, TrustsNoEdgeMuchIfTwoAgreeAlike) {
   EXPECT_NEAR(chosen->calibration.observations.border[0].sigma_px, 2, 1e-6);
 }
 
+TEST(BorderChoice, TakesNoEdgeThatContradictsTheTouches) {
+  RandomRigs random(64);
+  for (int i = 0; i < 10; ++i) {
+    RigObservations seen = random.observe(random.usual_rig(), 7, 0.3, 0.3);
+    BorderCandidate wrong{seen.border, false, 5};
+    for (BorderObservation& point : wrong.points)
+      point.image.v_px += 10;
+    const auto chosen = solve_with_border(seen, {wrong});
+    ASSERT_TRUE(chosen.ok());
+    EXPECT_FALSE(chosen->chosen.has_value()) << i;
+  }
+}
+
 TEST(BorderChoice, SolvesWithoutAnyCandidate) {
   RandomRigs random(63);
   const auto chosen = solve_with_border(random.observe(random.rig(), 5, 0.3, 0.3), {});

@@ -8,8 +8,6 @@
 #include <stdexcept>
 
 #include "calibration/calibration.hpp"
-#include "calibration/calibration_policy.hpp"
-#include "calibration/dot_touches.hpp"
 #include "doubles/drawn_dots.hpp"
 
 namespace telehug {
@@ -102,77 +100,6 @@ TEST_F(ADot, IsRefusedWhereTheCameraIsSaidToSeeItElsewhere) {
 
 TEST_F(ADot, NeedsAColourPicture) {
   EXPECT_THROW((void)find_calibration_dot(cv::Mat(720, 1280, CV_8UC1), border), std::invalid_argument);
-}
-
-class ACalibrationWithDots : public testing::Test {
- protected:
-  const RigCamera camera = camera_of({1280, 720});
-  const BorderLine border = border_line(camera, screen);
-  const std::vector<ScreenPoint> places{{190, 190}, {220, 260}, {92, 216}, {292, 216},
-                                        {60, 270},  {310, 270}, {140, 285}};
-
-  [[nodiscard]] std::vector<DotPicture> pictures() const {
-    std::vector<DotPicture> taken;
-    for (const ScreenPoint& at : places)
-      taken.push_back({DrawnDots(camera).dot(at).finger(at).picture(taken.size()), at, std::nullopt});
-    return taken;
-  }
-  [[nodiscard]] Result<BorderChosen> solved(std::vector<DotPicture>& pictures) const {
-    find_dots(pictures, border);
-    return solve_with_dots({screen, {1280, 720}, {}, {}, {}}, pictures, {});
-  }
-};
-
-TEST_F(ACalibrationWithDots, FindsTheCameraToPartsOfAMillimetre) {
-  auto taken = pictures();
-  const auto found = solved(taken);
-  ASSERT_TRUE(found.ok()) << found.error().message;
-  const RigModel& model = found->calibration.solution.model;
-  for (const ScreenPoint& at : {ScreenPoint{130, 200}, {250, 240}, {190, 290}, {280, 285}}) {
-    const auto placed = model.camera.screen_point(camera.project(at).value());
-    ASSERT_TRUE(placed.has_value());
-    EXPECT_NEAR(placed->x_mm, at.x_mm, 0.3);
-    EXPECT_NEAR(placed->y_mm, at.y_mm, 0.5);
-  }
-  for (const TouchResidual& touch : found->calibration.solution.touches)
-    EXPECT_LT(std::hypot(touch.error_mm.x_mm, touch.error_mm.y_mm), 0.4);
-  // Nothing tells how large the finger is.
-  EXPECT_NEAR(model.contact_radius_mm, 15.4, 0.01);
-}
-
-TEST_F(ACalibrationWithDots, TellsWhichTwoWereExchanged) {
-  auto taken = pictures();
-  std::swap(taken[1].screen, taken[4].screen);
-  const auto found = solved(taken);
-  ASSERT_TRUE(found.ok()) << found.error().message;
-  const auto verdict = judge_calibration(found->calibration, places);
-  ASSERT_TRUE(verdict.exchanged.has_value());
-  EXPECT_EQ(*verdict.exchanged, (std::pair<std::size_t, std::size_t>{1, 4}));
-}
-
-TEST_F(ACalibrationWithDots, TellsWhichOneWasElsewhere) {
-  auto taken = pictures();
-  taken[3].screen = {250, 216};
-  const auto found = solved(taken);
-  ASSERT_TRUE(found.ok()) << found.error().message;
-  EXPECT_EQ(found->calibration.solution.bad_touch, 3U);
-  EXPECT_EQ(judge_calibration(found->calibration, places).repeat, 3U);
-}
-
-TEST_F(ACalibrationWithDots, GoesWithoutTheOneThatIsMissing) {
-  auto taken = pictures();
-  taken[2].bgr = DrawnDots(camera).picture();
-  const auto found = solved(taken);
-  ASSERT_TRUE(found.ok()) << found.error().message;
-  EXPECT_EQ(found->calibration.observations.touches.size(), places.size() - 1);
-}
-
-TEST_F(ACalibrationWithDots, IsNoneIfMostPicturesShowNoDot) {
-  auto taken = pictures();
-  for (std::size_t i = 0; i + 3 < taken.size(); ++i)
-    taken[i].bgr = DrawnDots(camera).picture();
-  find_dots(taken, border);
-  EXPECT_TRUE(dot_touches(taken).empty());
 }
 
 }  // namespace

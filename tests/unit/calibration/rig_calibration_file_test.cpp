@@ -26,7 +26,11 @@ class RigCalibrationFile : public testing::Test {
     const KnownRig rig{{380, 300, 1280, 1024},
                        {RigCamera({1000, 0.03, {195, -15, 50}, 1, -1, 2}, {1280, 720}, {true, true}), 12}};
     RandomRigs random(51);
-    RigObservations seen = random.observe(rig, 5, 0.3, 0.3);
+    RigObservations seen = random.observe(rig, 6, 0.3, 0.3);
+    seen.touches[1].evidence = TouchEvidence::contact;
+    seen.touches[1].image = rig.model.camera.project(seen.touches[1].screen).value();
+    seen.touches[5].image.u_px += 80;
+    seen.touches[5].left_out = true;
     seen.marks.push_back({{190, 300}, rig.model.camera.project(ScreenPoint{190, 300}).value(), 2, 3});
     const RigSolution solution = solve_rig(seen).value();
     calibration = Calibration{"webcam \"desk\"",
@@ -78,7 +82,11 @@ TEST_F(RigCalibrationFile, GivesBackAllThatWasWritten) {
   EXPECT_DOUBLE_EQ(read->border.v0_px, calibration->border.v0_px);
   const auto& was = std::get<RigCalibration>(calibration->solved);
   const auto& is = std::get<RigCalibration>(read->solved);
-  ASSERT_EQ(is.observations.touches.size(), 5U);
+  ASSERT_EQ(is.observations.touches.size(), 6U);
+  for (std::size_t i = 0; i < is.observations.touches.size(); ++i) {
+    EXPECT_EQ(is.observations.touches[i].evidence, was.observations.touches[i].evidence) << i;
+    EXPECT_EQ(is.observations.touches[i].left_out, i == 5) << i;
+  }
   EXPECT_DOUBLE_EQ(is.observations.touches[3].image.v_px, was.observations.touches[3].image.v_px);
   ASSERT_EQ(is.observations.marks.size(), 1U);
   EXPECT_DOUBLE_EQ(is.observations.marks[0].sigma_v_px, 3);

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "calibration/consistent_touches.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "doubles/random_rig.hpp"
+
+namespace telehug {
+namespace {
+
+using testing::ElementsAre;
+
+TEST(ConsistentTouches, AreAllThatOneCameraSaw) {
+  RandomRigs random(71);
+  for (int i = 0; i < 20; ++i) {
+    const RigObservations seen = random.observe(random.rig(), 9, 0.3, 0.3);
+    EXPECT_EQ(consistent_touches(seen).size(), seen.touches.size()) << i;
+  }
+}
+
+TEST(ConsistentTouches, AreWithoutThoseThatLieElsewhere) {
+  RandomRigs random(72);
+  for (int i = 0; i < 10; ++i) {
+    RigObservations seen = random.observe(random.usual_rig(), 9, 0.3, 0.3);
+    seen.touches[1].image.u_px += random.between(40, 200);
+    seen.touches[4].image.v_px -= random.between(40, 100);
+    seen.touches[7].image.u_px -= random.between(40, 200);
+    EXPECT_THAT(consistent_touches(seen), ElementsAre(0, 2, 3, 5, 6, 8)) << i;
+  }
+}
+
+TEST(ConsistentTouches, LookAtThoseAgainThatWereLeftOut) {
+  RandomRigs random(73);
+  RigObservations seen = random.observe(random.usual_rig(), 6, 0.3, 0.3);
+  seen.touches[2].left_out = true;
+  EXPECT_THAT(consistent_touches(seen), ElementsAre(0, 1, 2, 3, 4, 5));
+}
+
+TEST(ConsistentTouches, AreAllIfThereAreFewerThanFour) {
+  RandomRigs random(74);
+  RigObservations seen = random.observe(random.usual_rig(), 3, 0.3, 0.3);
+  seen.touches[1].image.u_px += 300;
+  EXPECT_THAT(consistent_touches(seen), ElementsAre(0, 1, 2));
+}
+
+}  // namespace
+}  // namespace telehug
