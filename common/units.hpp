@@ -15,6 +15,8 @@ struct ImagePoint {
 struct ScreenPoint {
   double x_mm = 0;
   double y_mm = 0;
+
+  constexpr bool operator==(const ScreenPoint&) const = default;
 };
 
 // A place on the remote person's body, in heights of their face (fh): x from the midline, positive towards the right

@@ -7,14 +7,17 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <filesystem>
 #include <istream>
 #include <opencv2/imgproc.hpp>
 #include <ostream>
 #include <string>
 #include <utility>
 
-#include "calibration/border_choice.hpp"
+#include "calibration/calibration_dot.hpp"
+#include "calibration/calibration_policy.hpp"
 #include "calibration/screen_border.hpp"
+#include "detection/touch_calibration.hpp"
 #include "finger/thesis_detector.hpp"
 #include "pictures/median_picture.hpp"
 #include "pictures/picture_file.hpp"
@@ -26,10 +29,9 @@ namespace {
 constexpr int frames_measured = 15;
 constexpr int least_frames_with_finger = 8;
 constexpr int frames_of_a_second = 30;
-constexpr int frames_per_picture = 2;  // of those that are kept in memory
-constexpr const char* triangle_file = "telehug-triangle.png";
-constexpr const char* dots_file = "telehug-dots.png";
-constexpr double px_per_mm = 4;  // of the pictures, when the screen's pixels are not known
+constexpr int frames_per_picture = 2;                 // of those that are kept in memory
+constexpr const char* pages = "telehug-calibration";  // a folder
+constexpr double px_per_mm = 4;                       // of the pictures, when the screen's pixels are not known
 
 cv::Size picture_size(const ScreenSize& screen) {
   if (screen.width_px > 0 && screen.height_px > 0) return {screen.width_px, screen.height_px};
@@ -52,18 +54,36 @@ cv::Mat triangle_picture(const ScreenSize& screen) {
   return picture;
 }
 
-cv::Mat dots_picture(const ScreenSize& screen, const std::vector<ScreenPoint>& points) {
-  constexpr double dot_radius_mm = 5;
+cv::Mat dot_picture(const ScreenSize& screen, const ScreenPoint& point) {
   const cv::Size size = picture_size(screen);
   cv::Mat picture(size, CV_8UC3, cv::Scalar::all(0));
-  const int radius = static_cast<int>(std::lround(dot_radius_mm / screen.width_mm * size.width));
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    const cv::Point centre = to_px(points[i], screen, size);
-    cv::circle(picture, centre, radius, cv::Scalar::all(255), cv::FILLED, cv::LINE_AA);
-    cv::putText(picture, std::to_string(i + 1), centre + cv::Point(2 * radius, radius), cv::FONT_HERSHEY_SIMPLEX,
-                radius / 12.0, cv::Scalar::all(255), 2, cv::LINE_AA);
-  }
+  const int radius = static_cast<int>(std::lround(calibration_dot_mm / 2 / screen.width_mm * size.width));
+  cv::circle(picture, to_px(point, screen, size), radius, cv::Scalar::all(255), cv::FILLED, cv::LINE_AA);
   return picture;
+}
+
+// In the order in which they are needed, so that a picture viewer's key for the next one leads through them.
+std::string triangle_page() {
+  return fmt::format("{}/01-triangle.png", pages);
+}
+std::string black_page() {
+  return fmt::format("{}/02-black.png", pages);
+}
+std::string dot_page(std::size_t touch) {
+  return fmt::format("{}/{:02}-dot-{}.png", pages, touch + 3, touch + 1);
+}
+
+Status write_pages(const ScreenSize& screen, const std::vector<ScreenPoint>& points) {
+  std::error_code code;
+  std::filesystem::create_directories(pages, code);
+  if (code) return Error{fmt::format("can't make the folder {}: {}", pages, code.message())};
+  if (Status written = write_png(triangle_page(), triangle_picture(screen)); !written) return written;
+  if (Status written = write_png(black_page(), cv::Mat(picture_size(screen), CV_8UC3, cv::Scalar::all(0))); !written)
+    return written;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (Status written = write_png(dot_page(i), dot_picture(screen, points[i])); !written) return written;
+  }
+  return Done{};
 }
 
 Status ask(const std::string& what, std::istream& answers, std::ostream& instructions) {
@@ -90,39 +110,20 @@ Status read_frames(FrameSource& camera, int count, Use use) {
   return Done{};
 }
 
-// What the camera sees in a second, without what moves or flickers.
-Result<cv::Mat> picture_of_a_second(FrameSource& camera) {
-  std::vector<cv::Mat> pictures;
-  int taken = 0;
-  const Status read = read_frames(camera, frames_of_a_second, [&](const cv::Mat& bgr) {
-    if (taken++ % frames_per_picture == 0) pictures.push_back(bgr.clone());
-  });
-  if (!read) return read.error();
-  return median_picture(pictures);
-}
-
 double median(std::vector<double> values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
   std::nth_element(values.begin(), middle, values.end());
   return *middle;
 }
 
-// One touch as both models see it.
-struct HandTouch {
-  MeasuredTouch thesis;
-  ImagePoint tip;
-};
-
-Result<HandTouch> measure(FrameSource& camera, const BorderLine& border, const ScreenPoint& point) {
+Result<MeasuredTouch> measure(FrameSource& camera, const BorderLine& border, const ScreenPoint& point) {
   ThesisDetector detector(border, camera.size());
   std::vector<double> lengths;
   std::vector<double> columns;
-  std::vector<double> rows;
   const Status read = read_frames(camera, frames_measured, [&](const cv::Mat& bgr) {
     for (const Finger& finger : detector.detect(bgr)) {
       lengths.push_back(finger.length_px);
       columns.push_back(finger.tip.u_px);
-      rows.push_back(finger.tip.v_px);
     }
   });
   if (!read) return read.error();
@@ -132,9 +133,113 @@ Result<HandTouch> measure(FrameSource& camera, const BorderLine& border, const S
                     "other fingers folded away, and begin again",
                     lengths.size(), frames_measured)};
   }
-  const ImagePoint tip{median(columns), median(rows)};
-  return HandTouch{{point, median(lengths), column_from_centre_px(tip.u_px, camera.size())}, tip};
+  return MeasuredTouch{point, median(lengths), column_from_centre_px(median(columns), camera.size())};
 }
+
+// The conversation with the person at the screen.
+class HandCalibrator {
+ public:
+  HandCalibrator(FrameSource& camera, const ScreenSize& screen, std::vector<ScreenPoint> points, std::istream& answers,
+                 std::ostream& instructions)
+      : camera_(camera), points_(std::move(points)), answers_(answers), instructions_(instructions) {
+    seen_.screen = screen;
+  }
+
+  Status look_at_empty_rig() {
+    auto triangle = picture_when(
+        fmt::format("Show {} on the whole screen, with any picture viewer. Take your hands, and all that does not stay "
+                    "there, away from the screen and the desk before it.",
+                    triangle_page()));
+    if (!triangle) return triangle.error();
+    seen_.triangle = *std::move(triangle);
+    auto empty = picture_when(fmt::format("Show the next one, {}: all black. Hands still away.", black_page()));
+    if (!empty) return empty.error();
+    seen_.empty = *std::move(empty);
+    return Done{};
+  }
+  [[nodiscard]] const CalibrationPictures& seen() const noexcept { return seen_; }
+
+  Status ask_for_touch(std::size_t i) {
+    return ask(fmt::format("Show {} and lay a finger on the dot, from below; leave it there.", dot_page(i)), answers_,
+               instructions_);
+  }
+
+  Result<ThesisCalibration> thesis(const BorderLine& border) {
+    std::array<MeasuredTouch, 2> touches;
+    for (std::size_t i = 0; i < touches.size(); ++i) {
+      if (auto ready = ask_for_touch(i); !ready) return ready.error();
+      auto touch = measure(camera_, border, points_[i]);
+      if (!touch) return Error{fmt::format("touch {}: {}", i + 1, touch.error().message)};
+      touches[i] = *touch;
+    }
+    const auto model = ThesisTouchModel::solve(seen_.screen, touches[0], touches[1]);
+    if (!model) return model.error();
+    return ThesisCalibration{touches, *model};
+  }
+
+  // Touches that do not fit are asked for again, once each; what then is still wrong is for the caller to judge.
+  Result<RigCalibration> rig() {
+    for (std::size_t i = 0; i < points_.size(); ++i) {
+      seen_.touches.push_back({{}, points_[i]});
+      if (Status taken = take_touch(i); !taken) return taken.error();
+    }
+    for (std::vector<bool> repeated(points_.size());;) {
+      auto solved = calibrate_with_pictures(seen_);
+      const auto again = solved ? touch_to_repeat(*solved, repeated) : std::nullopt;
+      if (!again) return solved;
+      repeated[*again] = true;
+      instructions_ << fmt::format("The touch of dot {} was not seen, or does not fit the others. ", *again + 1);
+      if (Status taken = take_touch(*again); !taken) return taken.error();
+    }
+  }
+
+ private:
+  // The first that was not used and not repeated yet, else the one that a bad calibration suffers from most.
+  [[nodiscard]] std::optional<std::size_t> touch_to_repeat(const RigCalibration& solved,
+                                                           const std::vector<bool>& repeated) const {
+    const std::vector<PointObservation>& seen = solved.observations.touches;
+    for (std::size_t i = 0; i < points_.size(); ++i) {
+      const bool used = std::any_of(seen.begin(), seen.end(), [&](const PointObservation& touch) {
+        return touch.screen == points_[i] && !touch.left_out;
+      });
+      if (!used && !repeated[i]) return i;
+    }
+    const CalibrationVerdict verdict = judge_calibration(solved, points_);
+    if (verdict.good() || !verdict.repeat || seen.size() != points_.size() || repeated[*verdict.repeat])
+      return std::nullopt;
+    return verdict.repeat;
+  }
+
+  Status take_touch(std::size_t i) {
+    if (Status ready = ask_for_touch(i); !ready) return ready;
+    auto picture = picture_of_a_second();
+    if (!picture) return picture.error();
+    seen_.touches[i].bgr = *std::move(picture);
+    return Done{};
+  }
+
+  Result<cv::Mat> picture_when(const std::string& what) {
+    if (Status ready = ask(what, answers_, instructions_); !ready) return ready.error();
+    return picture_of_a_second();
+  }
+
+  // What the camera sees in a second, without what moves or flickers.
+  Result<cv::Mat> picture_of_a_second() {
+    std::vector<cv::Mat> pictures;
+    int taken = 0;
+    const Status read = read_frames(camera_, frames_of_a_second, [&](const cv::Mat& bgr) {
+      if (taken++ % frames_per_picture == 0) pictures.push_back(bgr.clone());
+    });
+    if (!read) return read.error();
+    return median_picture(pictures);
+  }
+
+  FrameSource& camera_;
+  std::vector<ScreenPoint> points_;
+  std::istream& answers_;
+  std::ostream& instructions_;
+  CalibrationPictures seen_;
+};
 
 }  // namespace
 
@@ -176,46 +281,22 @@ Result<CalibratedRig> calibrate_by_hand(FrameSource& camera, const HandCalibrati
   if (points.empty()) points = thesis ? thesis_points(screen) : default_points(screen);
   if (thesis && points.size() != 2) return Error{"the thesis' model is calibrated with two touches: give two --point"};
   if (const Status opened = camera.open(); !opened) return opened.error();
-  if (const Status written = write_png(triangle_file, triangle_picture(screen)); !written) return written.error();
-  if (const Status written = write_png(dots_file, dots_picture(screen, points)); !written) return written.error();
+  if (const Status written = write_pages(screen, points); !written) return written.error();
 
-  if (auto ready =
-          ask(fmt::format("Show {} on the whole screen, with any picture viewer. Take your hands, and all that "
-                          "does not stay there, away from the screen and the desk before it.",
-                          triangle_file),
-              answers, instructions);
-      !ready) {
-    return ready.error();
-  }
-  const auto empty = picture_of_a_second(camera);
-  if (!empty) return empty.error();
-  const auto border = find_screen_border(*empty, BorderChoice::triangle);
-  if (!border) return border.error();
-
-  std::vector<HandTouch> touches;
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    const std::string what =
-        i == 0 ? fmt::format("Show {} on the whole screen and lay a finger on dot 1; leave it there.", dots_file)
-               : fmt::format("Now lay it on dot {}; leave it there.", i + 1);
-    if (auto ready = ask(what, answers, instructions); !ready) return ready.error();
-    auto touch = measure(camera, border->line, points[i]);
-    if (!touch) return Error{fmt::format("touch {}: {}", i + 1, touch.error().message)};
-    touches.push_back(*touch);
-  }
+  HandCalibrator calibrator(camera, screen, points, answers, instructions);
+  if (const Status looked = calibrator.look_at_empty_rig(); !looked) return looked.error();
+  const CalibrationPictures& seen = calibrator.seen();
   if (thesis) {
-    const auto model = ThesisTouchModel::solve(screen, touches[0].thesis, touches[1].thesis);
-    if (!model) return model.error();
-    const ThesisCalibration solved{{touches[0].thesis, touches[1].thesis}, *model};
-    return CalibratedRig{{camera.name(), date, camera.size(), screen, border->line, solved}, *empty};
+    const auto border = find_screen_border(*seen.triangle, BorderChoice::triangle);
+    if (!border) return border.error();
+    const auto solved = calibrator.thesis(border->line);
+    if (!solved) return solved.error();
+    return CalibratedRig{{camera.name(), date, camera.size(), screen, border->line, *solved}, seen.empty};
   }
-  RigObservations seen{screen, camera.size(), {}, {}, {}};
-  for (std::size_t i = 0; i < points.size(); ++i)
-    seen.touches.push_back({points[i], touches[i].tip, thesis_tip_sigma_px, thesis_tip_sigma_px});
-  if (const auto mark = triangle_mark(*border, screen)) seen.marks.push_back(*mark);
-  auto solved = solve_with_border(seen, find_border_candidates(*empty, border->line));
+  const auto solved = calibrator.rig();
   if (!solved) return solved.error();
-  const BorderLine edge = border_line(solved->calibration.solution.model.camera, screen);
-  return CalibratedRig{{camera.name(), date, camera.size(), screen, edge, std::move(solved->calibration)}, *empty};
+  const BorderLine edge = border_line(solved->solution.model.camera, screen);
+  return CalibratedRig{{camera.name(), date, camera.size(), screen, edge, *solved}, seen.empty};
 }
 
 }  // namespace telehug

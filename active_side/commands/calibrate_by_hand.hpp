@@ -31,9 +31,10 @@ Result<std::vector<ScreenPoint>> parse_points(const std::vector<std::string>& te
 // Five that lie far to the left and right, where the camera sees them.
 [[nodiscard]] std::vector<ScreenPoint> default_points(const ScreenSize& screen);
 
-// Leads a person through it: `instructions` get what to do, and a line from `answers` says that it is done. Two
-// pictures to show on the whole screen (written to the current folder), hands away for the border and the background,
-// then one touch of each point.
+// Leads a person through it: `instructions` get what to do, and a line from `answers` says that it is done. Pictures to
+// show on the whole screen (written to the folder telehug-calibration in the current one): a triangle and a black one,
+// hands away, then a dot to touch for each point. With the default model a touch that does not fit is asked for once
+// more.
 Result<CalibratedRig> calibrate_by_hand(FrameSource& camera, const HandCalibration& wanted, const std::string& date,
                                         std::istream& answers, std::ostream& instructions);
 
