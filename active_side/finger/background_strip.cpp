@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/simd.hpp"
+
 namespace telehug {
 namespace {
 
@@ -44,13 +46,14 @@ void BackgroundStrip::set_background(int rail) {
 }
 
 // Of one value, in standard deviations.
-inline float BackgroundStrip::difference_at(const RailView& rail, const Gain& gain, std::size_t channel, int i) {
+TELEHUG_INLINE float BackgroundStrip::difference_at(const RailView& rail, const Gain& gain, std::size_t channel,
+                                                    int i) {
   const float difference = gain[channel] * (rail.now[channel][i] + dark) - (rail.then[channel][i] + dark);
   return difference * rail.inverse_deviation[channel][i];
 }
 
 // Of one cell, in variances, summed over the channels.
-inline float BackgroundStrip::distance2(const RailView& rail, const Gain& gain, int i) {
+TELEHUG_INLINE float BackgroundStrip::distance2(const RailView& rail, const Gain& gain, int i) {
   float sum = 0;
   for (std::size_t k = 0; k < gain.size(); ++k) {
     const float difference = difference_at(rail, gain, k, i);
@@ -86,7 +89,7 @@ BackgroundStrip::Gain BackgroundStrip::first_gain(const RailView& rail) {
 }
 
 // From the cells that look like background with the gain so far.
-BackgroundStrip::Gain BackgroundStrip::better_gain(const RailView& rail, const Gain& gain) const {
+TELEHUG_INLINE BackgroundStrip::Gain BackgroundStrip::better_gain(const RailView& rail, const Gain& gain) const {
   constexpr float limit = like_background * like_background * BorderStrip::channels;
   Gain now{};
   Gain then{};
@@ -103,7 +106,7 @@ BackgroundStrip::Gain BackgroundStrip::better_gain(const RailView& rail, const G
   return {then[0] / now[0], then[1] / now[1], then[2] / now[2]};
 }
 
-const std::vector<float>& BackgroundStrip::distance(const BorderStrip& strip) {
+TELEHUG_SIMD const std::vector<float>& BackgroundStrip::distance(const BorderStrip& strip) {
   float alike = 0;
   for (int r = 0; r < BorderStrip::rails; ++r) {
     const RailView rail = view(strip, r);

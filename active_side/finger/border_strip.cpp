@@ -5,6 +5,8 @@
 #include <cmath>
 #include <cstdint>
 
+#include "common/simd.hpp"
+
 namespace telehug {
 
 BorderStrip::Layout::Layout(const BorderCurve& border, ImageSize size)
@@ -24,7 +26,7 @@ BorderStrip::Layout::Layout(const BorderCurve& border, ImageSize size)
 
 // `Width` is the cells' width, or 0 for layout.column_px: known widths take a third of the time.
 template <int Width>
-void BorderStrip::sample_cells(const cv::Mat& bgr, const Layout& layout) {
+TELEHUG_INLINE void BorderStrip::sample_cells(const cv::Mat& bgr, const Layout& layout) {
   const int width_px = Width > 0 ? Width : layout.column_px;
   const float scale = 1.0F / static_cast<float>(2 * width_px);
   for (int rail = 0; rail < rails; ++rail) {
@@ -50,7 +52,7 @@ void BorderStrip::sample_cells(const cv::Mat& bgr, const Layout& layout) {
   }
 }
 
-void BorderStrip::sample(const cv::Mat& bgr, const Layout& layout) {
+TELEHUG_SIMD void BorderStrip::sample(const cv::Mat& bgr, const Layout& layout) {
   switch (layout.column_px) {
     case 1:
       return sample_cells<1>(bgr, layout);

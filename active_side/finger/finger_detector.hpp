@@ -66,7 +66,8 @@ class FingerDetector {
   BackgroundStrip background_;
   BackgroundLearner learner_;
   Overview overview_;
-  OverviewNet overview_net_;
+  OverviewNet narrow_net_;
+  OverviewNet wide_net_;
   TipNet tip_net_;
   std::vector<bool> is_finger_;  // columns of the strip
   Fingers fingers_;

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <stdexcept>
 
+#include "common/simd.hpp"
 #include "finger/background_strip.hpp"
 
 namespace telehug {
@@ -18,7 +19,8 @@ constexpr int most_cell_px = 64;
 constexpr std::size_t channels = 5;
 
 // A finger's tip lies at most so far beside the columns in which it crosses the strip.
-constexpr int usual_tile_columns = 128;
+constexpr int usual_narrow_columns = 88;
+constexpr int usual_wide_columns = 128;
 constexpr int beside_columns = 30;
 // Standard deviations from the background, and in how many cells of a column; noise hardly ever reaches that.
 constexpr float different = 2.5F;
@@ -52,7 +54,8 @@ Overview::Overview(const BorderCurve& border, const BorderStrip::Layout& strip, 
       cells_of_strip_(std::max(1, cell_px_ / strip.column_px)) {
   const ImageSize& image = strip.image;
   columns_ = image.width_px / cell_px_;
-  tile_columns_ = std::min(columns_, usual_tile_columns);
+  narrow_columns_ = std::min(columns_, usual_narrow_columns);
+  wide_columns_ = std::min(columns_, usual_wide_columns);
   seen_rows_ = (image.height_px - first_row_px_) / cell_px_;
   if (columns_ < least_cells || seen_rows_ < least_cells) {
     throw std::invalid_argument("too little of the screen is in the picture to look for fingers");
@@ -89,7 +92,8 @@ const Overview::Tiles& Overview::tiles(const std::vector<float>& distance) {
   }
   tiles_.clear();
   const auto differs = [this](int column) { return different_[static_cast<std::size_t>(column)] >= least_different; };
-  const int room = std::max(1, tile_columns_ - 2 * beside_columns);
+  const auto room_in = [](int columns) { return std::max(1, columns - 2 * beside_columns); };
+  const int room = room_in(wide_columns_);
   for (int column = 0; column < columns_ && tiles_.size() < most_tiles;) {
     if (!differs(column)) {
       ++column;
@@ -98,7 +102,8 @@ const Overview::Tiles& Overview::tiles(const std::vector<float>& distance) {
     int last = column;
     for (int i = column; i < std::min(column + room, columns_); ++i)
       last = differs(i) ? i : last;
-    tiles_.push_back(std::clamp((column + last + 1 - tile_columns_) / 2, 0, columns_ - tile_columns_));
+    const int wide = last - column < room_in(narrow_columns_) ? narrow_columns_ : wide_columns_;
+    tiles_.push_back({std::clamp((column + last + 1 - wide) / 2, 0, columns_ - wide), wide});
     column = last + 1;
   }
   return tiles_;
@@ -107,7 +112,8 @@ const Overview::Tiles& Overview::tiles(const std::vector<float>& distance) {
 // One row of cells from `cell_px` rows of pixels, whose first is at `pixels`. `Width` is cell_px, or 0 for any: known
 // widths take half the time.
 template <int Width>
-void Overview::average_row(const std::uint8_t* pixels, std::size_t row_bytes, int column_count, float* cells) {
+TELEHUG_INLINE void Overview::average_row(const std::uint8_t* pixels, std::size_t row_bytes, int column_count,
+                                          float* cells) {
   const int width = Width > 0 ? Width : cell_px_;
   const auto bytes = static_cast<std::size_t>(column_count * width) * 3;
   unsigned short* const sums = sums_.data();
@@ -134,7 +140,7 @@ void Overview::average_row(const std::uint8_t* pixels, std::size_t row_bytes, in
   }
 }
 
-void Overview::sample(const cv::Mat& bgr, int first_column, int column_count, float* cells) {
+TELEHUG_SIMD void Overview::sample(const cv::Mat& bgr, int first_column, int column_count, float* cells) {
   const auto first_byte = static_cast<std::ptrdiff_t>(first_column) * cell_px_ * 3;
   for (int row = 0; row < rows_; ++row, cells += static_cast<std::size_t>(column_count) * channels) {
     const int seen_row = std::min(row, seen_rows_ - 1);

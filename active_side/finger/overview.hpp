@@ -17,13 +17,18 @@
 namespace telehug {
 
 // A grid of rows() by columns() cells; the last rows repeat the last one that the picture holds. It is looked at in
-// tiles, all of its rows by tile_columns(): where nothing differs from the background there is no finger to be found.
+// tiles, all of its rows by narrow_columns() or wide_columns(): where nothing differs from the background there is no
+// finger to be found.
 class Overview {
  public:
   static constexpr double cell_mm = 1.75;
   static constexpr double in_front_mm = 42;  // what is seen of the desk
   static constexpr std::size_t most_tiles = 8;
-  using Tiles = boost::container::static_vector<int, most_tiles>;
+  struct Tile {
+    int first_column;
+    int columns;  // narrow_columns() or wide_columns()
+  };
+  using Tiles = boost::container::static_vector<Tile, most_tiles>;
 
   // `px_per_mm`: of the picture at the middle of the screen's bottom edge, > 0. Throws std::invalid_argument if the
   // picture has too few cells.
@@ -32,8 +37,9 @@ class Overview {
   // The picture's first row that is looked at.
   [[nodiscard]] static int first_row_px(const BorderCurve& border, ImageSize image, double px_per_mm);
 
-  // With the result of BackgroundStrip::distance(): the first columns of tiles in which all that differs from the
-  // background lies, each far enough from the tile's sides. Allocates nothing.
+  // With the result of BackgroundStrip::distance(): the tiles in which all that differs from the
+  // background lies, each far enough from the tile's sides: narrow ones about one finger, wide ones about hands.
+  // Allocates nothing.
   const Tiles& tiles(const std::vector<float>& distance);
 
   // Writes the cells of all rows of some columns, row by row, five values each: blue, green, red (-1 dark to 1 bright),
@@ -44,7 +50,8 @@ class Overview {
 
   [[nodiscard]] int columns() const noexcept { return columns_; }
   [[nodiscard]] int rows() const noexcept { return rows_; }
-  [[nodiscard]] int tile_columns() const noexcept { return tile_columns_; }
+  [[nodiscard]] int narrow_columns() const noexcept { return narrow_columns_; }
+  [[nodiscard]] int wide_columns() const noexcept { return wide_columns_; }
 
   [[nodiscard]] double cell_px() const noexcept { return cell_px_; }
   // Where the middle of a cell is in the picture. Cells count from 0; parts of them are allowed.
@@ -68,7 +75,8 @@ class Overview {
   int columns_ = 0;
   int rows_ = 0;
   int seen_rows_ = 0;
-  int tile_columns_ = 0;
+  int narrow_columns_ = 0;
+  int wide_columns_ = 0;
   int cells_of_strip_;                // how many columns of the strip lie in one cell
   std::vector<int> strip_start_;      // of each cell: the first of them, or -1
   std::vector<float> beyond_edge_;    // of each cell

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <cstdint>
 
+#include "common/simd.hpp"
+
 namespace telehug {
 namespace {
 
@@ -25,7 +27,7 @@ Neighbours neighbours(double at, int count) {
 
 }  // namespace
 
-void sample_patch(const cv::Mat& bgr, const PatchPlace& place, float* values) {
+TELEHUG_SIMD void sample_patch(const cv::Mat& bgr, const PatchPlace& place, float* values) {
   std::array<Neighbours, most_columns> across{};
   for (int column = 0; column < place.columns; ++column)
     across[static_cast<std::size_t>(column)] = neighbours(place.picture_point(column, 0).u_px, bgr.cols);

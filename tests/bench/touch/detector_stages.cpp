@@ -32,7 +32,8 @@ class StagedDetector {
         strip_(sampled(empty, layout_)),
         background_(layout_, strip_),
         overview_(border, layout_, px_per_mm_at(camera, {empty.cols / 2.0, border.v_at(empty.cols / 2.0)}).value_or(1)),
-        overview_net_(overview_.rows(), overview_.tile_columns()) {}
+        narrow_net_(overview_.rows(), overview_.narrow_columns()),
+        wide_net_(overview_.rows(), overview_.wide_columns()) {}
 
   StageTimes detect(const cv::Mat& bgr) {
     StageTimes ms{};
@@ -41,14 +42,15 @@ class StagedDetector {
     ms[0] = watch.lap_ms();
     const auto& foreground = background_.distance(strip_);
     ms[1] = watch.lap_ms();
-    for (const int first_column : overview_.tiles(foreground)) {
+    for (const Overview::Tile& tile : overview_.tiles(foreground)) {
+      OverviewNet& net = tile.columns == overview_.narrow_columns() ? narrow_net_ : wide_net_;
       Stopwatch of_tile;
-      overview_.sample(bgr, first_column, overview_.tile_columns(), overview_net_.cells());
+      overview_.sample(bgr, tile.first_column, tile.columns, net.cells());
       ms[2] += of_tile.lap_ms();
-      const OverviewNet::Tips tips = overview_net_.find(0);
+      const OverviewNet::Tips tips = net.find(0);
       ms[3] += of_tile.lap_ms();
       for (const OverviewNet::Tip& tip : tips)
-        look_at(bgr, overview_.picture_point(first_column + tip.column, tip.row), ms);
+        look_at(bgr, overview_.picture_point(tile.first_column + tip.column, tip.row), ms);
     }
     return ms;
   }
@@ -68,7 +70,8 @@ class StagedDetector {
   BorderStrip strip_;
   BackgroundStrip background_;
   Overview overview_;
-  OverviewNet overview_net_;
+  OverviewNet narrow_net_;
+  OverviewNet wide_net_;
   TipNet tip_net_;
   double row_sum_ = 0;  // so that nothing is left out as unused
 };

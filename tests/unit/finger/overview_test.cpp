@@ -100,16 +100,25 @@ TEST_F(OverviewTest, LaysTilesAboutAllThatDiffers) {
     for (int i = first; i < end; ++i) {
       const double column = overview_.cell_of({layout_.column_centre_px(i), 0}).u_px;
       bool inside = false;
-      for (const int tile : tiles) {
+      for (const Overview::Tile& tile : tiles) {
         const double reach = 28;  // a finger may lean so far, unless the picture ends
         inside =
-            inside || (column - std::min(reach, column) >= tile - 1 &&
-                       std::min<double>(column + reach, overview_.columns()) <= tile + overview_.tile_columns() + 1);
+            inside || (column - std::min(reach, column) >= tile.first_column - 1 &&
+                       std::min<double>(column + reach, overview_.columns()) <= tile.first_column + tile.columns + 1);
       }
       EXPECT_TRUE(inside) << i << " of " << first << " to " << end;
     }
   }
   EXPECT_EQ(overview_.tiles(std::vector<float>(layout_.cells(), 0.0F)).size(), 0U);
+}
+
+TEST_F(OverviewTest, LaysNarrowTilesAboutOneFingerAndWideOnesAboutMore) {
+  differ(300, 330);  // 12 cells, 21 mm
+  ASSERT_EQ(overview_.tiles(distance_).size(), 1U);
+  EXPECT_EQ(overview_.tiles(distance_)[0].columns, overview_.narrow_columns());
+  differ(370, 400);  // 40 cells from the first to the last
+  ASSERT_EQ(overview_.tiles(distance_).size(), 1U);
+  EXPECT_EQ(overview_.tiles(distance_)[0].columns, overview_.wide_columns());
 }
 
 TEST_F(OverviewTest, ATileIsPartOfTheWhole) {
@@ -118,13 +127,14 @@ TEST_F(OverviewTest, ATileIsPartOfTheWhole) {
   random.fill(bgr, cv::RNG::UNIFORM, 0, 256);
   differ(300, 320);
   sample(bgr);
-  std::vector<float> tile(static_cast<std::size_t>(overview_.rows() * overview_.tile_columns()) * channels);
-  overview_.sample(bgr, tiles_.front(), overview_.tile_columns(), tile.data());
+  const auto [first_column, columns] = tiles_.front();
+  std::vector<float> tile(static_cast<std::size_t>(overview_.rows() * columns) * channels);
+  overview_.sample(bgr, first_column, columns, tile.data());
   for (int row = 0; row < overview_.rows(); row += 7) {
-    for (int column = 0; column < overview_.tile_columns(); column += 5) {
+    for (int column = 0; column < columns; column += 5) {
       for (int k = 0; k < 5; ++k) {
-        const auto i = static_cast<std::size_t>(row * overview_.tile_columns() + column) * channels;
-        EXPECT_EQ(tile[i + static_cast<std::size_t>(k)], at(tiles_.front() + column, row, k));
+        const auto i = static_cast<std::size_t>(row * columns + column) * channels;
+        EXPECT_EQ(tile[i + static_cast<std::size_t>(k)], at(first_column + column, row, k));
       }
     }
   }
@@ -157,7 +167,7 @@ TEST_F(OverviewTest, AllocatesNothingPerFrame) {
   sample(bgr);
   const auto before = allocation_count();
   (void)overview_.tiles(distance_);
-  overview_.sample(bgr, 10, overview_.tile_columns(), values_.data());
+  overview_.sample(bgr, 10, overview_.wide_columns(), values_.data());
   EXPECT_EQ(allocation_count(), before);
 }
 
@@ -169,13 +179,12 @@ TEST(OverviewOf, SmallPicturesAndEdgesNearTheirEndIsPossible) {
         const BorderStrip::Layout layout(border, size);
         try {
           Overview overview(border, layout, scale);
-          std::vector<float> values(static_cast<std::size_t>(overview.rows() * overview.tile_columns()) * channels);
+          std::vector<float> values(static_cast<std::size_t>(overview.rows() * overview.wide_columns()) * channels);
           const std::vector<float> distance(layout.cells(), 4.0F);
-          for (const int first : overview.tiles(distance)) {
+          for (const auto& [first, columns] : overview.tiles(distance)) {
             EXPECT_GE(first, 0);
-            EXPECT_LE(first + overview.tile_columns(), overview.columns());
-            overview.sample(cv::Mat::zeros(size.height_px, size.width_px, CV_8UC3), first, overview.tile_columns(),
-                            values.data());
+            EXPECT_LE(first + columns, overview.columns());
+            overview.sample(cv::Mat::zeros(size.height_px, size.width_px, CV_8UC3), first, columns, values.data());
           }
           EXPECT_LE(overview.picture_point(0, overview.rows() - rows_beyond - 1).v_px, size.height_px);
         } catch (const std::invalid_argument&) {
