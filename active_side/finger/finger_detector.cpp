@@ -26,11 +26,13 @@ ImageSize checked(ImageSize image) {
 }
 
 MirrorEvidence evidence(const TipLook& look) {
-  constexpr double sure = 0.7;
+  // A touch that is not seen is worse than one that motion still tells from hovering.
+  constexpr double surely_touching = 0.7;
+  constexpr double surely_hovering = 0.8;
   const double touching = 1 / (1 + std::exp(-look.touches_logit));
   MirrorEvidence said;
-  if (touching >= sure) said = {MirrorState::touching, 0, touching};
-  if (1 - touching >= sure) said = {MirrorState::hovering, look.hover_mm, 1 - touching};
+  if (touching >= surely_touching) said = {MirrorState::touching, 0, touching};
+  if (1 - touching >= surely_hovering) said = {MirrorState::hovering, look.hover_mm, 1 - touching};
   return said;
 }
 
