@@ -12,13 +12,13 @@ namespace telehug {
 
 struct BorderChosen {
   RigCalibration calibration;         // with the chosen candidate's points as its border
-  std::optional<std::size_t> chosen;  // index of the candidate; none if there are none
+  std::optional<std::size_t> chosen;  // index of the candidate; none if none agrees
   bool clear = false;                 // no other candidate agrees nearly as well
 };
 
 // Solves the rig with each candidate as the screen's bottom edge and chooses the one that agrees best with touches,
-// marks and priors. If another agrees nearly as well, the chosen one's standard deviation becomes their distance.
-// `observations.border` is replaced.
+// marks and priors; candidates that contradict them are not used. If another agrees nearly as well, the chosen one's
+// standard deviation becomes their distance. `observations.border` is replaced.
 Result<BorderChosen> solve_with_border(RigObservations observations, const std::vector<BorderCandidate>& candidates,
                                        const RigSolverOptions& options = {});
 
