@@ -6,8 +6,14 @@
 #include <cstdint>
 
 #include "common/simd.hpp"
+#include "finger/pixel_sums.hpp"
 
 namespace telehug {
+namespace {
+
+constexpr int rows_of_cell = 2;
+
+}  // namespace
 
 BorderStrip::Layout::Layout(const BorderCurve& border, ImageSize size)
     : image(size),
@@ -19,7 +25,10 @@ BorderStrip::Layout::Layout(const BorderCurve& border, ImageSize size)
   for (int rail = 0; rail < rails; ++rail) {
     for (int column = 0; column < columns; ++column) {
       const double v = border.v_at(column_centre_px(column)) + offset_px(rail);
-      first_row.push_back(std::clamp(static_cast<int>(std::floor(v)), 0, size.height_px - 2));
+      const int row = std::clamp(static_cast<int>(std::floor(v)), 0, size.height_px - 2);
+      if (column == 0 || row != first_row.back()) runs.push_back({rail, column, column, row});
+      runs.back().end_column = column + 1;
+      first_row.push_back(row);
     }
   }
 }
@@ -28,22 +37,28 @@ BorderStrip::Layout::Layout(const BorderCurve& border, ImageSize size)
 template <int Width>
 TELEHUG_INLINE void BorderStrip::sample_cells(const cv::Mat& bgr, const Layout& layout) {
   const int width_px = Width > 0 ? Width : layout.column_px;
-  const float scale = 1.0F / static_cast<float>(2 * width_px);
-  for (int rail = 0; rail < rails; ++rail) {
-    const int* const first_row = layout.first_row.data() + static_cast<std::ptrdiff_t>(rail) * columns_;
-    float* const blue = row(0, rail);
-    float* const green = row(1, rail);
-    float* const red = row(2, rail);
-    for (int column = 0; column < columns_; ++column) {
-      const std::uint8_t* above = bgr.ptr<std::uint8_t>(first_row[column]) + channels * column * width_px;
-      const std::uint8_t* below = above + bgr.step[0];
-      int b = 0;
-      int g = 0;
-      int r = 0;
-      for (int i = 0; i < width_px; ++i, above += channels, below += channels) {
-        b += above[0] + below[0];
-        g += above[1] + below[1];
-        r += above[2] + below[2];
+  const std::size_t cell_bytes = bytes_of_pixel * static_cast<std::size_t>(width_px);
+  const float scale = 1.0F / static_cast<float>(rows_of_cell * width_px);
+  for (const Layout::Run& run : layout.runs) {
+    const std::uint8_t* const pixels =
+        bgr.ptr<std::uint8_t>(run.row) + static_cast<std::size_t>(run.first_column) * cell_bytes;
+    const auto count = static_cast<std::size_t>(run.end_column - run.first_column) * cell_bytes;
+    add_rows(pixels, bgr.step[0], rows_of_cell, count, sums_.data());
+    if constexpr (Width > 0) add_next_pixels<Width>(count, sums_.data());
+    float* const blue = row(0, run.rail);
+    float* const green = row(1, run.rail);
+    float* const red = row(2, run.rail);
+    const unsigned short* sum = sums_.data();
+    for (int column = run.first_column; column < run.end_column; ++column, sum += cell_bytes) {
+      int b = sum[0];
+      int g = sum[1];
+      int r = sum[2];
+      if constexpr (Width == 0) {
+        for (std::size_t i = bytes_of_pixel; i < cell_bytes; i += bytes_of_pixel) {
+          b += sum[i];
+          g += sum[i + 1];
+          r += sum[i + 2];
+        }
       }
       blue[column] = static_cast<float>(b) * scale;
       green[column] = static_cast<float>(g) * scale;

@@ -30,6 +30,14 @@ class BorderStrip {
     int column_px;               // width of a cell
     double scale;                // of lengths: 1 in pictures 720 rows high
     std::vector<int> first_row;  // of each cell: the upper one of the two rows that it averages
+    // Neighbouring cells of a rail in the same rows.
+    struct Run {
+      int rail;
+      int first_column;
+      int end_column;
+      int row;
+    };
+    std::vector<Run> runs;  // all cells, once each
     // Rows from the edge to the rail: near ones 3, 5, ... 17 in front of it, the others 23, 29, ... 65.
     [[nodiscard]] double offset_px(int rail) const noexcept {
       return -scale * (rail < near_rails ? 3 + 2 * rail : 23 + 6 * (rail - near_rails));
@@ -38,7 +46,10 @@ class BorderStrip {
     [[nodiscard]] std::size_t cells() const noexcept { return static_cast<std::size_t>(columns) * rails; }
   };
 
-  explicit BorderStrip(const Layout& layout) : columns_(layout.columns), values_(layout.cells() * channels, 0.0F) {}
+  explicit BorderStrip(const Layout& layout)
+      : columns_(layout.columns),
+        values_(layout.cells() * channels, 0.0F),
+        sums_(static_cast<std::size_t>(layout.image.width_px) * channels) {}
 
   // `bgr` is CV_8UC3 of the layout's size. Allocates nothing.
   void sample(const cv::Mat& bgr, const Layout& layout);
@@ -61,6 +72,7 @@ class BorderStrip {
 
   int columns_;
   std::vector<float> values_;
+  std::vector<unsigned short> sums_;  // of the pixels of some neighbouring cells
 };
 
 }  // namespace telehug

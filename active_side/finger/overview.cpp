@@ -8,6 +8,7 @@
 
 #include "common/simd.hpp"
 #include "finger/background_strip.hpp"
+#include "finger/pixel_sums.hpp"
 
 namespace telehug {
 namespace {
@@ -115,28 +116,22 @@ template <int Width>
 TELEHUG_INLINE void Overview::average_row(const std::uint8_t* pixels, std::size_t row_bytes, int column_count,
                                           float* cells) {
   const int width = Width > 0 ? Width : cell_px_;
-  const auto bytes = static_cast<std::size_t>(column_count * width) * 3;
+  const std::size_t count = static_cast<std::size_t>(column_count * width) * bytes_of_pixel;
   unsigned short* const sums = sums_.data();
-  for (std::size_t k = 0; k < bytes; ++k) {
-    unsigned sum = 0;
-    for (int i = 0; i < width; ++i)
-      sum += pixels[static_cast<std::size_t>(i) * row_bytes + k];
-    sums[k] = static_cast<unsigned short>(sum);
-  }
+  add_rows(pixels, row_bytes, width, count, sums);
+  if constexpr (Width > 0) add_next_pixels<Width>(count, sums);
   const float scale = 1 / (127.5F * static_cast<float>(width * width));
   const unsigned short* sum = sums;
   for (int column = 0; column < column_count; ++column, cells += channels) {
-    unsigned b = 0;
-    unsigned g = 0;
-    unsigned r = 0;
-    for (int i = 0; i < width; ++i, sum += 3) {
-      b += sum[0];
-      g += sum[1];
-      r += sum[2];
+    for (std::size_t k = 0; k < bytes_of_pixel; ++k) {
+      unsigned block = sum[k];
+      if constexpr (Width == 0) {
+        for (int i = 1; i < width; ++i)
+          block += sum[static_cast<std::size_t>(i) * bytes_of_pixel + k];
+      }
+      cells[k] = static_cast<float>(block) * scale - 1;
     }
-    cells[0] = static_cast<float>(b) * scale - 1;
-    cells[1] = static_cast<float>(g) * scale - 1;
-    cells[2] = static_cast<float>(r) * scale - 1;
+    sum += static_cast<std::size_t>(width) * bytes_of_pixel;
   }
 }
 
