@@ -84,8 +84,10 @@ Figures measure_stages(const BorderCurve& border, const RigCamera& camera, const
   Figures figures;
   for (const char* const stage : stages)
     figures.push_back({std::string("touch.stage.") + stage + suffix, "ms"});
+  cv::Mat picture;
   for (int i = 0; i < bench_warm_up_rounds + bench_rounds; ++i) {
-    const StageTimes ms = detector.detect(pictures[static_cast<std::size_t>(i) % pictures.size()]);
+    pictures[static_cast<std::size_t>(i) % pictures.size()].copyTo(picture);
+    const StageTimes ms = detector.detect(picture);
     if (i < bench_warm_up_rounds) continue;
     for (std::size_t k = 0; k < stages.size(); ++k)
       figures[k].samples.push_back(ms[k]);

@@ -52,8 +52,10 @@ Figures measure_path(Detector& detector, const TouchedRig& rig, const std::strin
                   {start + "fingers_per_frame" + suffix, "fingers"}};
   for (Figure& figure : figures)
     figure.samples.reserve(bench_rounds);
+  cv::Mat picture;
   for (int i = 0; i < bench_warm_up_rounds + bench_rounds; ++i) {
-    const cv::Mat& picture = rig.pictures[static_cast<std::size_t>(i) % rig.pictures.size()];
+    // As a decoder does, into the same buffer each time.
+    rig.pictures[static_cast<std::size_t>(i) % rig.pictures.size()].copyTo(picture);
     const auto allocated = allocation_count();
     Stopwatch watch;
     const Fingers& fingers = detector.detect(picture);
