@@ -33,9 +33,11 @@ std::optional<double> border_residual(const RigModel& model, double screen_heigh
   return *row - border.image.v_px;
 }
 
-// The edge's images of two points 1 mm apart give dx / du; a few secant steps along the edge end in the column, since
-// the edge is nearly straight and level in the picture.
+// The edge's images of two points 1 mm apart give dx / du; a few secant steps along the edge end near the column, since
+// the edge is nearly straight and level in the picture. Its tangent leads from there to the column itself: lenses bend
+// the edge by less than 1e-4 per px, which over near_px makes 1e-8 px.
 std::optional<double> border_row(const RigCamera& camera, double screen_height_mm, double u_px) {
+  constexpr double near_px = 0.01;
   double x = camera.position_mm().x_mm;
   for (int i = 0; i < 20; ++i) {
     const auto here = camera.project(ScreenPoint{x, screen_height_mm});
@@ -43,7 +45,7 @@ std::optional<double> border_row(const RigCamera& camera, double screen_height_m
     if (!here || !beside) return std::nullopt;
     const double px_per_mm = beside->u_px - here->u_px;
     const double off_px = u_px - here->u_px;
-    if (std::abs(off_px) < 1e-7) return here->v_px + off_px / px_per_mm * (beside->v_px - here->v_px);
+    if (std::abs(off_px) < near_px) return here->v_px + off_px / px_per_mm * (beside->v_px - here->v_px);
     x += off_px / px_per_mm;
     if (!std::isfinite(x)) return std::nullopt;
   }
