@@ -1,100 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The whole touch path, from a drawn picture to the event that is sent for it.
-#include "active_pipeline.hpp"
-
+// What is sent for the pictures that a camera delivers, and what for bad ones.
 #include <gtest/gtest.h>
 
 #include <opencv2/core.hpp>
 
-#include "body_map/vitruvian_grid.hpp"
-#include "detection/make_detector.hpp"
-#include "detection/rows_needed.hpp"
 #include "doubles/allocation_counter.hpp"
-#include "doubles/drawn_finger.hpp"
-#include "doubles/example_messages.hpp"
-#include "doubles/fake_clock.hpp"
+#include "pipeline/app/active_pipeline_fixture.hpp"
 
 namespace telehug {
 namespace {
-
-constexpr ImageSize image{1280, 720};
-constexpr BorderLine border{520, 0};
-constexpr ScreenSize screen{400, 300, 1280, 960};
-constexpr Duration frame_period = 33ms;
-
-// A camera 60 mm above the screen's top: a point y below it is seen past the border by 28800 px mm (1 / (y + 60) -
-// 1 / 360), and one x beside the middle in column 900 x / (y + 60).
-Calibration calibration() {
-  const std::array touches{MeasuredTouch{{200, 100}, 28800 * (1 / 160.0 - 1 / 360.0), 0},
-                           MeasuredTouch{{230, 220}, 28800 * (1 / 280.0 - 1 / 360.0), 900 * 30 / 280.0}};
-  auto model = ThesisTouchModel::solve(screen, touches[0], touches[1]);
-  return {"drawn", "2026-11-22T00:00:00Z", image, screen, border, ThesisCalibration{touches, model.value()}};
-}
-
-// As `run` chooses it; for the default one nobody() shows the empty rig.
-AnyDetector detector_of(const Calibration& rig, const std::string& choice, const cv::Mat& empty) {
-  const BorderStrip::Layout layout = strip_layout(rig);
-  BorderStrip background(layout);
-  background.sample(empty, layout);
-  return make_detector(choice, rig, background);
-}
-
-class ActivePipelineTest : public testing::Test {
- protected:
-  ActivePipelineTest() {
-    // A face 60 mm high: boxes of 30 mm, the grid from (125, 80) to (275, 300).
-    map = make_body_map({160, 20, 80, 60}, 300).value();
-    map.version = 7;
-    map.seen = clock.now();
-  }
-
-  // A finger whose tip is at (200, 150) mm, in box 13.
-  static const cv::Mat& touching() {
-    static const cv::Mat picture = DrawnScene(border, image).finger(613, 55, 57).noise(1, 4).picture();
-    return picture;
-  }
-  static const cv::Mat& nobody() {
-    static const cv::Mat picture = DrawnScene(border, image).noise(2, 4).picture();
-    return picture;
-  }
-
-  const TouchEvent* see(const cv::Mat& picture, bool sending = true) { return see_with(pipeline, picture, sending); }
-  const TouchEvent* see_with(ActivePipeline& seeing, const cv::Mat& picture, bool sending = true) {
-    clock.advance(frame_period);
-    frame.bgr = picture;
-    ++frame.sequence;
-    frame.time = clock.now() - 5ms;
-    return seeing.process(frame, map, sending);
-  }
-  const TouchEvent* see_for(Duration time, ActivePipeline& seeing, const cv::Mat& picture) {
-    const TouchEvent* event = nullptr;
-    for (const Timestamp end = clock.now() + time; clock.now() < end;) {
-      map.seen = clock.now();
-      event = see_with(seeing, picture);
-    }
-    return event;
-  }
-  const TouchEvent* miss(Duration after = frame_period) {
-    clock.advance(after);
-    return pipeline.process_nothing(map, true);
-  }
-  std::uint64_t counter(const char* name) { return metrics.counter(name).value(); }
-
-  FakeClock clock;
-  MetricsRegistry metrics;
-  BodyMap map;
-  Frame frame;
-  static ActivePipelineOptions options() {
-    ActivePipelineOptions options;
-    options.frames.frozen_after = 0;  // the drawn pictures stand still
-    return options;
-  }
-  ActivePipeline pipeline_with(AnyDetector detector, const Calibration& rig = calibration()) {
-    return {rig, std::move(detector), options(), example_session, clock, metrics};
-  }
-  ActivePipeline pipeline = pipeline_with(detector_of(calibration(), "default", nobody()));
-};
 
 TEST_F(ActivePipelineTest, SendsTheBoxUnderTheFinger) {
   const TouchEvent* event = see(touching());
@@ -309,119 +224,6 @@ TEST_F(ActivePipelineTest, LetsTimeRiseWhenAPictureIsOlderThanTheLastMiss) {
   const TouchEvent* event = pipeline.process(frame, map, true);
   ASSERT_NE(event, nullptr);
   EXPECT_GT(event->frame_time_ns, before_ns);
-}
-
-// A camera without angles 50 mm in front of the screen's upper edge, so that the border is where the scene has it.
-class WatchedCamera : public ActivePipelineTest {
- protected:
-  static Calibration calibration() {
-    const RigModel model{RigCamera({1000, 0, {200, -11.5, 50}}, image), 10};
-    RigObservations seen{screen, image, {}, {}, {}};
-    for (const ScreenPoint& place : {ScreenPoint{200, 200}, {230, 260}, {120, 230}, {300, 240}, {180, 290}})
-      seen.touches.push_back({place, tip_of_contact(model.camera, 10, place).value(), 0.1, 0.1});
-    for (int u = 20; u < image.width_px; u += 40)
-      seen.border.push_back({{static_cast<double>(u), border.v_at(u)}, 0.1});
-    const RigSolution solution = solve_rig(seen).value();
-    return {"drawn", "2026-11-22T00:00:00Z", image, screen, border, RigCalibration{seen, solution}};
-  }
-
-  WatchedCamera() { see(nobody()); }  // the bezel is learnt
-  const TouchEvent* see(const cv::Mat& picture) {
-    clock.advance(frame_period);
-    map.seen = clock.now();
-    frame.bgr = picture;
-    frame.time = clock.now() - 5ms;
-    return watched.process(frame, map, true);
-  }
-  static cv::Mat moved(int rows, bool finger) {
-    DrawnScene scene({border.v0_px + rows, 0}, image);
-    if (finger) scene.finger(613, 55, 57);
-    return scene.noise(3, 4).picture();
-  }
-
-  ActivePipeline watched = pipeline_with(detector_of(calibration(), "default", nobody()), calibration());
-};
-
-TEST_F(WatchedCamera, SeesTheSameUpsideDown) {
-  Calibration turned = calibration();
-  auto& camera = std::get<RigCalibration>(turned.solved).solution.model.camera;
-  camera = RigCamera(camera.parameters(), image, {.left_right_exchanged = false, .top_bottom_exchanged = true});
-  turned.border = border_line(camera, screen);
-  ActivePipeline upside_down = pipeline_with(detector_of(turned, "default", nobody()), turned);
-  cv::Mat flipped;
-  cv::flip(touching(), flipped, 0);
-  const ScreenPoint upright = see(touching())->contacts.at(0).screen;
-  const TouchEvent* event = see_with(upside_down, flipped);
-  ASSERT_NE(event, nullptr);
-  EXPECT_EQ(event->contacts.at(0).screen.x_mm, upright.x_mm);
-  EXPECT_EQ(event->contacts.at(0).screen.y_mm, upright.y_mm);
-}
-
-TEST_F(WatchedCamera, SeesTheSameInTheRowsThatAreNeeded) {
-  Calibration turned = calibration();
-  auto& camera = std::get<RigCalibration>(turned.solved).solution.model.camera;
-  camera = RigCamera(camera.parameters(), image, {.left_right_exchanged = false, .top_bottom_exchanged = true});
-  turned.border = border_line(camera, screen);
-  ActivePipeline upside_down = pipeline_with(detector_of(turned, "default", nobody()), turned);
-  const ScreenPoint whole = see(touching())->contacts.at(0).screen;
-  for (const bool flipped : {false, true}) {
-    ActivePipeline& seeing = flipped ? upside_down : watched;
-    cv::Mat held = cv::Mat::zeros(image.height_px, image.width_px, CV_8UC3);
-    const auto see_rows = [&](const cv::Mat& picture) {
-      cv::Mat delivered = picture.clone();
-      if (flipped) cv::flip(picture, delivered, 0);
-      frame.rows = seeing.rows_needed();
-      const RowRange rows = frame.rows.within(image.height_px);
-      delivered.rowRange(rows.first, rows.end).copyTo(held.rowRange(rows.first, rows.end));
-      map.seen = clock.now();
-      return see_with(seeing, held);
-    };
-    EXPECT_EQ(seeing.rows_needed(), RowRange{}) << "until it is known how good pictures look";
-    for (int i = 0; i < 40; ++i)
-      see_rows(nobody());
-    EXPECT_EQ(seeing.rows_needed(), rows_needed(flipped ? turned : calibration()));
-    EXPECT_EQ(seeing.rows_needed().count(), 416);
-    const TouchEvent* event = see_rows(touching());
-    ASSERT_NE(event, nullptr);
-    ASSERT_EQ(event->contacts.size(), 1U);
-    EXPECT_NEAR(event->contacts[0].screen.x_mm, whole.x_mm, 0.5);
-    EXPECT_NEAR(event->contacts[0].screen.y_mm, whole.y_mm, 0.5);
-  }
-}
-
-TEST_F(WatchedCamera, IsTrustedWhileItStands) {
-  for (int i = 0; i < 100; ++i)
-    EXPECT_NE(see(touching()), nullptr);
-  EXPECT_EQ(watched.camera_drift(), DriftState::steady);
-}
-
-TEST_F(WatchedCamera, IsCorrectedAfterASmallTurn) {
-  const cv::Mat turned = moved(2, true);
-  const double before_mm = see(turned)->contacts.at(0).screen.y_mm;
-  for (int i = 0; i < 80; ++i)
-    see(turned);
-  EXPECT_EQ(watched.camera_drift(), DriftState::moved_slightly);
-  // Two rows are 2.1 mm where this finger touches; what moved down in the picture looked too far up on the screen.
-  EXPECT_NEAR(see(turned)->contacts.at(0).screen.y_mm - before_mm, 2.1, 0.8);
-}
-
-TEST_F(WatchedCamera, EndsTouchesWhenItWasMoved) {
-  ASSERT_NE(see(touching()), nullptr);
-  const cv::Mat away = moved(6, true);
-  for (int i = 0; i < 80; ++i)
-    see(away);
-  EXPECT_EQ(watched.camera_drift(), DriftState::moved);
-  EXPECT_EQ(see(away), nullptr);
-  EXPECT_EQ(see(touching()), nullptr) << "nobody knows where it looks now";
-}
-
-TEST_F(WatchedCamera, AllocatesNothing) {
-  if (!allocations_are_counted()) GTEST_SKIP() << "the sanitizer has a heap of its own";
-  see(touching());
-  const std::uint64_t before = allocation_count();
-  for (int i = 0; i < 60; ++i)
-    see(touching());
-  EXPECT_EQ(allocation_count() - before, 0U);
 }
 
 TEST_F(ActivePipelineTest, AllocatesNothingPerFrameAfterTheFirst) {
