@@ -25,7 +25,8 @@ std::string rest_group(const ScoredRest& rest, const std::string& coat) {
   if (rest.kind != "hover") return rest.kind == "nohand" ? "no hand" : rest.kind;
   constexpr double clearly_above_mm = 10;
   if (rest.hover_mm.value_or(0) < clearly_above_mm) return "hover < 10 mm";
-  return "hover >= 10 mm, " + coat;
+  const bool mirrored = rest.notes.find("mirrored") != std::string::npos;
+  return "hover >= 10 mm, " + coat + (mirrored ? ", mirrored" : "");
 }
 
 }  // namespace telehug

@@ -14,7 +14,8 @@ namespace telehug {
 [[nodiscard]] std::vector<std::string> groups_of(const RandomRig& rig);
 
 // Which of the false touches a frame without a touch belongs to: "no hand", "away", "hover < 10 mm", and, since only a
-// mirror image tells that they hover, "hover >= 10 mm, glossy" and so on.
+// mirror image tells that they hover, "hover >= 10 mm, glossy, mirrored" where it can be seen and "hover >= 10 mm,
+// glossy" where the screen is too bright, and so on.
 [[nodiscard]] std::string rest_group(const ScoredRest& rest, const std::string& coat);
 
 }  // namespace telehug

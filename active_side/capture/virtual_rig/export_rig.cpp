@@ -13,6 +13,7 @@
 #include <utility>
 #include <vector>
 
+#include "capture/virtual_rig/mirror_contrast.hpp"
 #include "capture/virtual_rig/random_frame.hpp"
 #include "capture/virtual_rig/virtual_rig.hpp"
 #include "pictures/picture_file.hpp"
@@ -118,8 +119,10 @@ class RigExporter {
       renderer.show(view);
       renderer.draw(frame.hands, seed, frame_.bgr);
       const std::string name = fmt::format("{:03}", i + 1);
+      const bool mirrored = kind == FrameKind::hover && mirror_contrast(renderer, frame.hands) >= least_mirror_contrast;
       for (TruthRow& row : truth_of(frame, name)) {
         if (!rig_.settings.screen_picture.empty()) row.screen_picture = "picture";
+        if (mirrored) row.notes += " mirrored";
         truth += csv_line(row);
       }
       if (Status written = write_jpeg(path_ / folder / (name + ".jpg"), frame_.bgr); !written) return written;

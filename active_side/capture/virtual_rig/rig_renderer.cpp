@@ -114,7 +114,7 @@ void RigRenderer::draw(const std::vector<HandPose>& hands, std::uint64_t noise_i
     add_shadows();
     mirror_image_.clear();
     const ImagePoint mirrored_px = motion_px(hands.front(), true);
-    if (settings_.coat.mirror > 0 && raster(true, mirrored_px)) {
+    if (mirror_images_ && settings_.coat.mirror > 0 && raster(true, mirrored_px)) {
       mirror_image_.take(raster_);
       mirror_blur_.apply(mirror_image_);
       motion_blur_.apply(mirror_image_, static_cast<float>(mirrored_px.u_px), static_cast<float>(mirrored_px.v_px));

@@ -45,6 +45,9 @@ class RigRenderer {
   // One hand in its usual pose, or nobody.
   void draw(const std::optional<FingerPlace>& finger, std::uint64_t noise_index, cv::Mat& bgr);
 
+  // Pictures without the mirror images of hands, to see what they change.
+  void leave_out_mirror_images(bool leave_out) noexcept { mirror_images_ = !leave_out; }
+
   [[nodiscard]] const PinholeCamera& camera() const noexcept { return view_->camera; }
 
  private:
@@ -79,7 +82,8 @@ class RigRenderer {
   std::vector<std::array<const RasterVertex*, 3>> triangles_;  // those that face the camera
   std::vector<float> shadow_factor_;                           // of a row
   std::vector<std::uint16_t> shares_;  // of the light that is left, for a row's blue, green and red values
-  bool blurred_ = false;               // the hand is in hand_, else in raster_
+  bool mirror_images_ = true;
+  bool blurred_ = false;  // the hand is in hand_, else in raster_
   PictureLayer hand_;
   PictureLayer mirror_image_;
 };

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <opencv2/core.hpp>
 
+#include "capture/virtual_rig/mirror_contrast.hpp"
 #include "capture/virtual_rig/picture_maker.hpp"
 #include "capture/virtual_rig/rig_renderer.hpp"
 
@@ -312,6 +313,38 @@ TEST(RigFeatures, EveryScreenContentLooksDifferent) {
     for (std::size_t j = 0; j < i; ++j)
       EXPECT_GT(cv::norm(pictures[i], pictures[j], cv::NORM_INF), 15) << i << ", " << j;
   }
+}
+
+TEST(RigFeatures, AMirrorImageStandsOutOnABlackMirrorButNotOnAWhiteOneNorOnAMattScreen) {
+  HandPose hovering = touch_at(190, 200);
+  hovering.finger.hover_mm = 15;
+  const auto contrast = [&](ScreenContent content, double mirror, double roughness_deg) {
+    VirtualRigSettings settings = plain_rig();
+    settings.content = content;
+    settings.screen_luminance = 3;
+    settings.coat.mirror = mirror;
+    settings.coat.roughness_deg = roughness_deg;
+    RigRenderer renderer(settings);
+    return mirror_contrast(renderer, {hovering});
+  };
+  EXPECT_GT(contrast(ScreenContent::black, 1, 0), 2 * least_mirror_contrast);
+  EXPECT_LT(contrast(ScreenContent::white, 1, 0), least_mirror_contrast);
+  EXPECT_LT(contrast(ScreenContent::black, 0.1, 8), least_mirror_contrast);
+  EXPECT_EQ(contrast(ScreenContent::black, 0, 0), 0);
+}
+
+TEST(RigFeatures, LookingForAMirrorImageLeavesTheNextPictureAsItWas) {
+  VirtualRigSettings settings = plain_rig();
+  settings.coat.mirror = 1;
+  settings.coat.roughness_deg = 0;
+  RigRenderer renderer(settings);
+  cv::Mat before;
+  cv::Mat after;
+  renderer.draw({touch_at(190, 200)}, 1, before);
+  (void)mirror_contrast(renderer, {touch_at(190, 200)});
+  EXPECT_EQ(mirror_contrast(renderer, std::vector<HandPose>{}), 0);
+  renderer.draw({touch_at(190, 200)}, 1, after);
+  EXPECT_EQ(cv::norm(before, after, cv::NORM_INF), 0);
 }
 
 }  // namespace

@@ -68,6 +68,9 @@ TEST(RigGroups, TellFalseTouchesApartByWhatIsHardAboutThem) {
   EXPECT_EQ(rest_group(rest("away", 100), "matt"), "away");
   EXPECT_EQ(rest_group(rest("hover", 9.9), "matt"), "hover < 10 mm");
   EXPECT_EQ(rest_group(rest("hover", 10), "glossy"), "hover >= 10 mm, glossy");
+  ScoredRest mirrored = rest("hover", 10);
+  mirrored.notes = "hover polish mirrored";
+  EXPECT_EQ(rest_group(mirrored, "satin"), "hover >= 10 mm, satin, mirrored");
 }
 
 }  // namespace
