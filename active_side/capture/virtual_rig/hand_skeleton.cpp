@@ -179,8 +179,8 @@ class HandBuilder {
   void add_finger(const cv::Vec3f& end, const cv::Vec3f& end_joint, const cv::Vec3f& middle_joint,
                   const cv::Vec3f& knuckle, const Directions& tip, const cv::Vec3f& base_nail) {
     const std::size_t first = skeleton_.limbs.size();
-    constexpr float flatness = 0.86F;
-    add(end, end_joint, 6.6F, 7.9F, tip.nail, flatness, 0.6F);
+    const auto flatness = static_cast<float>(looks_.tip_flatness);
+    add(end, end_joint, static_cast<float>(looks_.tip_radius_mm), 7.9F, tip.nail, flatness, 0.6F);
     add(end_joint, middle_joint, 7.8F, 8.6F, tip.nail, 0.9F, 0.6F);
     add(middle_joint, knuckle, 8.6F, 10.2F, base_nail, 0.95F, 1.5F);
     skeleton_.pointing_limbs.insert(skeleton_.pointing_limbs.end(),

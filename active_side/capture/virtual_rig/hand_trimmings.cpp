@@ -57,7 +57,7 @@ TriangleMesh nail(const FingerEnd& end, const HandLooks& looks) {
   for (int row = 0; row < nail_rows; ++row) {
     const float t = static_cast<float>(row) / (nail_rows - 1);
     const float forwards = root + t * (tip - root);
-    float width = 0.74F * r;
+    float width = static_cast<float>(looks.nail_width) * r;
     if (t < 0.3F) width *= 0.45F + 0.55F * std::sqrt(std::max(0.0F, 1 - (1 - t / 0.3F) * (1 - t / 0.3F)));
     const float taper_from = pointed ? 0.55F : 0.75F;
     if (t > taper_from) {
