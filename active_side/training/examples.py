@@ -56,6 +56,24 @@ def vary_colours(x, rng):
     return (x + sd * torch.randn(x.shape)).clamp(0, 1)
 
 
+def vary_sharpness(x, rng):
+    """Other lenses and webcams' sharpening: a third blurred, a third sharpened with the bright and dark rims it makes."""
+    n = len(x)
+    kind = torch.from_numpy(rng.uniform(size=(n, 1, 1, 1))).float()
+    strength = torch.from_numpy(rng.uniform(size=(n, 1, 1, 1))).float()
+    amount = torch.where(kind < 0.33, -strength, torch.where(kind < 0.67, 1.5 * strength, torch.zeros_like(strength)))
+    blurred = F.avg_pool2d(F.pad(x, (1, 1, 1, 1), mode="replicate"), 3, 1)
+    return (x + amount * (x - blurred)).clamp(0, 1)
+
+
+def vary_light(x, rng):
+    """Light that fades across the picture, in one colour or another."""
+    n, _, rows, columns = x.shape
+    slope = lambda size: torch.from_numpy(rng.normal(0, 0.15, (n, 3 if size > 1 else 1, 1, 1))).float()
+    across, along = torch.linspace(-1, 1, columns)[None, None, None], torch.linspace(-1, 1, rows)[None, None, :, None]
+    return (x * torch.exp(slope(1) * across + slope(1) * along + 0.4 * slope(3) * along)).clamp(0, 1)
+
+
 def vary_parts(x, rng):
     """Edges where there are none: in a third of the patches what lies on one side of a line has another colour."""
     n, _, rows, columns = x.shape
@@ -115,14 +133,15 @@ def overview_batch(overviews, picks, rng, vary, columns=160, rows=72):
     return x, torch.from_numpy(target), torch.from_numpy(weight)
 
 
-def tip_batch(patches, picks, rng, vary, jitter=12.0):
+def tip_batch(patches, picks, rng, vary, jitter=14.0):
     """Inputs n, 3, rows, columns; places; numbers (column and row of the tip in the patch, present, touches, hover_mm,
     width)."""
     n = len(picks)
     pixels = np.stack([patches[k][2] for k in picks])
     numbers = np.stack([patches[k][1] for k in picks]).astype(np.float32)
-    wide = rng.uniform(size=(n, 1)) < 0.6
-    shift = np.where(wide, rng.uniform(-jitter, jitter, (n, 2)), rng.uniform(-3, 3, (n, 2))).astype(np.float32)
+    # Most first looks are less than 9 px off, second ones less than 3.
+    reach = rng.choice([3.0, 9.0, jitter], (n, 1), p=[0.25, 0.5, 0.25])
+    shift = (reach * rng.uniform(-1, 1, (n, 2))).astype(np.float32)
     present = numbers[:, 2] > 0.5
     middle = np.where(present[:, None], numbers[:, :2], [CANVAS_COLUMNS / 2, CANVAS_ROWS / 2 - 8])
     zoom = np.exp(rng.uniform(-0.13, 0.13, n)).astype(np.float32) if vary else np.ones(n, np.float32)
@@ -141,7 +160,7 @@ def tip_batch(patches, picks, rng, vary, jitter=12.0):
     x = torch.from_numpy(pixels).permute(0, 3, 1, 2).float() / 255
     x = F.grid_sample(x, grid, padding_mode="border", align_corners=True)
     if vary:
-        x = vary_colours(vary_parts(x, rng), rng)
+        x = vary_colours(vary_light(vary_sharpness(vary_parts(x, rng), rng), rng), rng)
     place = numbers[:, 6:8].copy()
     place[:, 0] *= flip
     out = numbers[:, :6].copy()

@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Trains a net of active_side/finger on what telehug-training-frames wrote: train.py overview|tip OUT.net FOLDER"""
 import argparse
+import copy
 import glob
 import time
 
@@ -93,6 +94,16 @@ def overview_report(net, overviews, rng):
     return f"{tips} tips, {missed} missed, {invented} invented in {len(overviews)} pictures"
 
 
+@torch.no_grad()
+def average(averaged, net, keep):
+    """Exponential moving average of weights and of the batch normalisations' statistics."""
+    for kept, new in zip(averaged.state_dict().values(), net.state_dict().values()):
+        if kept.is_floating_point():
+            kept.mul_(keep).add_(new, alpha=1 - keep)
+        else:
+            kept.copy_(new)
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("net", choices=["overview", "tip"])
@@ -125,6 +136,7 @@ def main():
         net.load_state_dict(torch.load(arguments.start))
     make, loss_of = ((examples.overview_batch, overview_loss), (examples.tip_batch, tip_loss))[which]
     report = (overview_report, tip_report)[which]
+    averaged = copy.deepcopy(net)  # weights averaged over the last steps are better than those of any one step
     optimiser = torch.optim.AdamW(net.parameters(), lr=arguments.rate, weight_decay=1e-3)
     start, step, mean, next_report = time.monotonic(), 0, None, 0.1
     while (done := (time.monotonic() - start) / 60 / arguments.minutes) < 1:
@@ -135,21 +147,21 @@ def main():
         loss.backward()
         torch.nn.utils.clip_grad_norm_(net.parameters(), 5.0)
         optimiser.step()
+        average(averaged, net, min(0.9995, step / (step + 10)))
         mean = loss.item() if mean is None else 0.99 * mean + 0.01 * loss.item()
         step += 1
         if done >= next_report or step == 300:
-            net.eval()
-            print(f"{done:.2f} step {step} loss {mean:.3f}:", report(net, held_back[:4000], np.random.default_rng(2)),
-                  flush=True)
-            torch.save(net.state_dict(), arguments.out + ".pt")
-            net.train()
+            averaged.eval()
+            print(f"{done:.2f} step {step} loss {mean:.3f}:",
+                  report(averaged, held_back[:4000], np.random.default_rng(2)), flush=True)
+            torch.save(averaged.state_dict(), arguments.out + ".pt")
             take_new_files()
             if done >= next_report:
                 next_report += 0.1
-    net.eval()
-    print("end, step", step, report(net, held_back, np.random.default_rng(2)), flush=True)
-    torch.save(net.state_dict(), arguments.out + ".pt")
-    nets.write(net, arguments.out)
+    averaged.eval()
+    print("end, step", step, report(averaged, held_back, np.random.default_rng(2)), flush=True)
+    torch.save(averaged.state_dict(), arguments.out + ".pt")
+    nets.write(averaged, arguments.out)
 
 
 if __name__ == "__main__":
