@@ -12,12 +12,11 @@
 #include <optional>
 
 #include "calibration/border_line.hpp"
+#include "calibration/calibration_page.hpp"
 #include "calibration/rig_camera.hpp"
 #include "common/units.hpp"
 
 namespace telehug {
-
-inline constexpr double calibration_dot_mm = 10;  // diameter
 
 struct CalibrationDot {
   ImagePoint centre;  // the image of the dot's centre; the middle of its outline lies elsewhere, by parts of a pixel

@@ -14,6 +14,7 @@ namespace telehug {
 namespace {
 
 constexpr std::size_t least_touches = 4;
+constexpr std::size_t enough_marks = 5;
 // Distances from where the solution of a triple, and then of all that agree with it, sees a touch. A triple tells
 // little of what lies far beside it.
 constexpr double near_triple_px = 25;  // in pictures 1280 px wide
@@ -33,6 +34,11 @@ struct Consensus {
 class Search {
  public:
   explicit Search(const RigObservations& seen) : seen_(seen), scale_(seen.image.width_px / 1280.0) {}
+
+  [[nodiscard]] std::vector<std::size_t> agreeing_with_marks() const {
+    const auto solved = solve({});
+    return solved ? near(solved->model, agrees_px * scale_, agrees_sd) : std::vector<std::size_t>();
+  }
 
   [[nodiscard]] std::optional<Consensus> consensus(const std::vector<std::size_t>& sample) const {
     auto solved = solve(sample);
@@ -80,8 +86,9 @@ std::vector<std::size_t> consistent_touches(const RigObservations& seen) {
   const std::size_t n = seen.touches.size();
   std::vector<std::size_t> all(n);
   std::iota(all.begin(), all.end(), std::size_t{0});
-  if (n < least_touches) return all;
   const Search search(seen);
+  if (seen.marks.size() >= enough_marks) return search.agreeing_with_marks();
+  if (n < least_touches) return all;
   Consensus best;
   if (const auto together = search.consensus(all)) best = *together;
   if (best.touches.size() == n) return all;

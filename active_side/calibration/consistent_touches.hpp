@@ -11,9 +11,10 @@
 
 namespace telehug {
 
-// The indices of the largest set of touches that one camera can have seen, rising; all if they are fewer than four,
-// since three touches contradict no others clearly. Random sample consensus (Fischler and Bolles, 1981) over all
-// triples. Neither the border nor what was left out before matters. Empty if there is no solution at all.
+// The indices of the largest set of touches that one camera can have seen, rising. Five marks and more tell the camera
+// by themselves; else it is random sample consensus (Fischler and Bolles, 1981) over all triples of touches, and all of
+// these if they are fewer than four, since three touches contradict no others clearly. Neither the border nor what was
+// left out before matters. Empty if there is no solution at all.
 [[nodiscard]] std::vector<std::size_t> consistent_touches(const RigObservations& seen);
 
 }  // namespace telehug

@@ -14,6 +14,8 @@ telehug_test(test_rig_calibration KIND unit SUBJECT touch TIMEOUT 900
   DEPS active_calibration)
 telehug_test(test_calibration_dot KIND unit SUBJECT touch SOURCES unit/calibration/calibration_dot_test.cpp
   DEPS active_calibration opencv::imgproc)
+telehug_test(test_mark_search KIND unit SUBJECT touch SOURCES unit/calibration/mark_search_test.cpp
+  DEPS active_calibration opencv::imgproc)
 telehug_test(test_touch_calibration KIND unit SUBJECT touch SOURCES unit/detection/touch_calibration_test.cpp
   DEPS active_detection opencv::imgproc)
 telehug_test(test_drift_watch KIND unit SUBJECT touch

@@ -44,5 +44,22 @@ TEST(ConsistentTouches, AreAllIfThereAreFewerThanFour) {
   EXPECT_THAT(consistent_touches(seen), ElementsAre(0, 1, 2));
 }
 
+TEST(ConsistentTouches, AreThoseThatAgreeWithFiveMarks) {
+  RandomRigs random(75);
+  const KnownRig rig = random.usual_rig();
+  RigObservations seen = random.observe(rig, 7, 0, 0.3);
+  for (PointObservation& touch : seen.touches) {
+    touch.image = rig.model.camera.project(touch.screen).value();
+    touch.evidence = TouchEvidence::dot;
+  }
+  seen.marks.assign(seen.touches.begin() + 2, seen.touches.end());
+  seen.touches.resize(2);
+  EXPECT_THAT(consistent_touches(seen), ElementsAre(0, 1));
+  seen.touches[0].image.u_px += 30;
+  EXPECT_THAT(consistent_touches(seen), ElementsAre(1));
+  seen.marks.pop_back();
+  EXPECT_THAT(consistent_touches(seen), ElementsAre(0, 1));
+}
+
 }  // namespace
 }  // namespace telehug
