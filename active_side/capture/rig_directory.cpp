@@ -49,6 +49,7 @@ class RigReader {
     read_screen();
     rig_.background = picture_named(rig_.path, "background");
     rig_.triangle = picture_named(rig_.path, "triangle");
+    rig_.marks = picture_named(rig_.path, "marks");
     read_calibration();
     for (const char* name : {"frames", "hard", "sequence"})
       read_part(name);

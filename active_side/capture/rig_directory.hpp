@@ -5,6 +5,7 @@
 //   rig.toml                width_mm, height_mm (visible screen), resolution = [w, h]
 //   background.jpg          nobody there, black screen (optional)
 //   triangle.jpg            the black triangle that points at the screen's bottom line (optional)
+//   marks.jpg               nobody there, the page of marks (calibration/calibration_page.hpp) on the screen (optional)
 //   calibration/NAME.jpg    touches of known points, with calibration.csv: frame,x_mm,y_mm (optional)
 //   frames/NAME.jpg         single pictures in no order, with truth.csv (optional)
 //   hard/, sequence/        as frames/, but truth.csv lies beside the pictures; `sequence` is in order
@@ -59,6 +60,7 @@ struct RigDirectory {
   ScreenSize screen;
   std::optional<std::filesystem::path> background;
   std::optional<std::filesystem::path> triangle;
+  std::optional<std::filesystem::path> marks;
   std::vector<CalibrationTouch> calibration;  // in the order of calibration.csv: 01 first
   std::vector<RigPart> parts;                 // those that are there
 

@@ -88,6 +88,7 @@ class RigExporter {
       const fs::path file = path_ / "calibration" / (name + ".jpg");
       if (Status written = write_jpeg(file, rig.picture_of_touch(points[i], pose)); !written) return written;
     }
+    if (Status written = write_jpeg(path_ / "marks.jpg", rig.picture_of_marks()); !written) return written;
     return write_text("calibration.csv", csv);
   }
 

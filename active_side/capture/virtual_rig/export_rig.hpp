@@ -20,8 +20,8 @@ struct ExportSettings {
 };
 
 // Writes a recording of a virtual rig (layout: rig_directory.hpp) with its truth: rig.toml, background, triangle,
-// calibration, frames, hard, sequence, times.csv. The notes of a hovering finger's single picture say "mirrored" where
-// its mirror image can be seen (mirror_contrast.hpp). The folder may exist; files of the same names are replaced.
+// marks, calibration, frames, hard, sequence, times.csv. The notes of a hovering finger's single picture say "mirrored"
+// where its mirror image can be seen (mirror_contrast.hpp). The folder may exist; files of the same names are replaced.
 Status export_rig_directory(const VirtualRigSettings& rig, const std::filesystem::path& path,
                             const ExportSettings& settings = {});
 

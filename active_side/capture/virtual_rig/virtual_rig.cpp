@@ -9,10 +9,11 @@
 #include <stdexcept>
 #include <utility>
 
+#include "calibration/calibration_page.hpp"
+
 namespace telehug {
 namespace {
 
-constexpr double dot_mm = 10;
 constexpr double margin_px = 8;           // a calibration point must lie this far inside the picture
 constexpr double least_distance_mm = 12;  // between calibration points
 
@@ -26,6 +27,22 @@ VirtualRigSettings completed(VirtualRigSettings settings) {
 
 cv::Mat plain(const ScreenSize& screen, uchar level) {
   return {screen.height_px, screen.width_px, CV_8UC3, cv::Scalar::all(level)};
+}
+
+// White dots of the calibration on a black screen.
+cv::Mat dots_at(const std::vector<ScreenPoint>& points, const ScreenSize& screen) {
+  cv::Mat shown = plain(screen, 0);
+  const double x_px_per_mm = shown.cols / screen.width_mm;
+  const double y_px_per_mm = shown.rows / screen.height_mm;
+  const cv::Size2f size(static_cast<float>(calibration_dot_mm * x_px_per_mm),
+                        static_cast<float>(calibration_dot_mm * y_px_per_mm));
+  for (const ScreenPoint& point : points) {
+    // A pixel's centre has whole coordinates in OpenCV, so the screen's edge lies half a pixel before 0.
+    const cv::Point2f centre(static_cast<float>(point.x_mm * x_px_per_mm - 0.5),
+                             static_cast<float>(point.y_mm * y_px_per_mm - 0.5));
+    cv::ellipse(shown, {centre, size, 0}, cv::Scalar::all(255), cv::FILLED, cv::LINE_AA);
+  }
+  return shown;
 }
 
 }  // namespace
@@ -186,19 +203,14 @@ cv::Mat VirtualRig::picture_of_triangle() {
   return picture_of(shown, {});
 }
 
+cv::Mat VirtualRig::picture_of_marks() {
+  return picture_of(dots_at(mark_points(settings_.screen), settings_.screen), {});
+}
+
 cv::Mat VirtualRig::picture_of_touch(const ScreenPoint& point, const HandPose& pose) {
-  cv::Mat shown = plain(settings_.screen, 0);
-  const double x_px_per_mm = shown.cols / settings_.screen.width_mm;
-  const double y_px_per_mm = shown.rows / settings_.screen.height_mm;
-  // A pixel's centre has whole coordinates in OpenCV, so the screen's edge lies half a pixel before 0.
-  cv::ellipse(shown,
-              {cv::Point2f(static_cast<float>(point.x_mm * x_px_per_mm - 0.5),
-                           static_cast<float>(point.y_mm * y_px_per_mm - 0.5)),
-               cv::Size2f(static_cast<float>(dot_mm * x_px_per_mm), static_cast<float>(dot_mm * y_px_per_mm)), 0},
-              cv::Scalar::all(255), cv::FILLED, cv::LINE_AA);
   std::vector<HandPose> hands(1, pose);
   hands.front().finger = {point, 0};
-  return picture_of(shown, hands);
+  return picture_of(dots_at({point}, settings_.screen), hands);
 }
 
 std::vector<ScreenPoint> calibration_points(const VirtualRigSettings& settings) {

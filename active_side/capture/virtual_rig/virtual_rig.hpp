@@ -43,6 +43,7 @@ class VirtualRig final : public FrameSource {
   // Pictures for the calibration, as the camera would take them, with noise.
   [[nodiscard]] cv::Mat picture_of_background();
   [[nodiscard]] cv::Mat picture_of_triangle();  // black on white, one vertex in the middle of the screen's lower edge
+  [[nodiscard]] cv::Mat picture_of_marks();     // see calibration/calibration_page.hpp
   // On a white dot on a black screen; the pose's place does not matter.
   [[nodiscard]] cv::Mat picture_of_touch(const ScreenPoint& point, const HandPose& pose = {});
 

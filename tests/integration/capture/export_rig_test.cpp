@@ -32,6 +32,8 @@ TEST(ExportedRig, OpensAgainWithItsTruth) {
   ASSERT_TRUE(rig->background.has_value());
   ASSERT_TRUE(rig->triangle.has_value());
   EXPECT_EQ(read_picture(*rig->triangle)->size(), cv::Size(640, 360));
+  ASSERT_TRUE(rig->marks.has_value());
+  EXPECT_EQ(read_picture(*rig->marks)->size(), cv::Size(640, 360));
   ASSERT_EQ(rig->calibration.size(), 9u);
   EXPECT_EQ(rig->calibration[0].screen.x_mm, 190);
 

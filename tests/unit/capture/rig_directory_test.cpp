@@ -60,6 +60,20 @@ TEST(RigDirectory, NeedsNothingButTheScreen) {
   EXPECT_EQ(rig->screen.height_mm, 300.5);
   EXPECT_TRUE(rig->calibration.empty());
   EXPECT_TRUE(rig->parts.empty());
+  EXPECT_FALSE(rig->marks.has_value());
+}
+
+TEST(RigDirectory, NamesThePicturesOfTheEmptyRig) {
+  const TemporaryFolder folder;
+  folder.write("rig.toml", good_rig);
+  folder.write("background.jpg", "");
+  folder.write("triangle.png", "");
+  folder.write("marks.jpg", "");
+  const auto rig = open_rig_directory(folder.path());
+  ASSERT_TRUE(rig) << rig.error().message;
+  EXPECT_EQ(rig->background, folder.path() / "background.jpg");
+  EXPECT_EQ(rig->triangle, folder.path() / "triangle.png");
+  EXPECT_EQ(rig->marks, folder.path() / "marks.jpg");
 }
 
 TEST(RigDirectory, SaysThatAFolderIsMissing) {
