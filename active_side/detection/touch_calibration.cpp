@@ -12,6 +12,7 @@
 #include "calibration/border_choice.hpp"
 #include "calibration/calibration_dot.hpp"
 #include "calibration/consistent_touches.hpp"
+#include "calibration/mark_search.hpp"
 #include "calibration/screen_border.hpp"
 #include "detection/make_detector.hpp"
 #include "finger/finger_detector.hpp"
@@ -55,7 +56,9 @@ class TouchCalibration {
       : pictures_(pictures),
         image_{pictures.empty.cols, pictures.empty.rows},
         scale_(image_.width_px / 1280.0),
-        seen_{pictures.screen, image_, {}, {}, {}} {}
+        seen_{pictures.screen, image_, {}, {}, {}} {
+    if (pictures.marks) spots_ = lit_spots(*pictures.marks, pictures.empty);
+  }
 
   Result<RigCalibration> solve() {
     const BorderLine edge = look_at_edge();
@@ -69,10 +72,10 @@ class TouchCalibration {
     }
     auto solved = solve_with(seen, edge);
     for (int i = 0; i < refinements && solved; ++i) {
-      const RigCalibration known = solved->calibration;
+      const RigCalibration known = look_at_marks(seen, solved->calibration);
       look_again(seen, known);
       mark_contradicting(seen);
-      if (count(seen) < least_touches) break;
+      if (count(seen) < (marks_.empty() ? least_touches : 1)) break;
       auto better = solve_with(seen, border_line(known.solution.model.camera, pictures_.screen));
       if (!better) break;
       solved = std::move(better);
@@ -124,6 +127,7 @@ class TouchCalibration {
   [[nodiscard]] RigObservations observations(const Sightings& seen) const {
     RigObservations all = seen_;
     all.touches = touches(seen);
+    all.marks.insert(all.marks.end(), marks_.begin(), marks_.end());
     return all;
   }
 
@@ -136,7 +140,9 @@ class TouchCalibration {
     }
   }
 
+  // None if there are marks: they tell more than the edge, and are never taken for another.
   [[nodiscard]] std::vector<BorderCandidate> edges_near(const BorderLine& line) const {
+    if (!marks_.empty()) return {};
     std::vector<BorderCandidate> found = find_border_candidates(pictures_.empty, line);
     if (pictures_.triangle) {
       for (BorderCandidate& candidate : find_border_candidates(*pictures_.triangle, line))
@@ -202,6 +208,33 @@ class TouchCalibration {
     return seen;
   }
 
+  // The camera that the page of marks tells, if that is found where `known` sees it. Spots alone tell it better than
+  // few touches do, and then how a dot looks.
+  [[nodiscard]] RigCalibration look_at_marks(Sightings& seen, const RigCalibration& known) {
+    if (!pictures_.marks) return known;
+    const auto near = [&](const RigCamera& camera) { return marks_at(spots_, pictures_.screen, camera); };
+    const RigCalibration rough = marks_.empty() ? with_marks(near(known.solution.model.camera), seen, known) : known;
+    if (marks_.empty()) return known;
+    const RigCamera& camera = rough.solution.model.camera;
+    const RigCalibration exact =
+        with_marks(measured_marks(*pictures_.marks, near(camera), pictures_.screen, camera), seen, rough);
+    return marks_.empty() ? known : exact;
+  }
+
+  // Marks that contradict most touches are not used: perhaps they were not shown on the whole screen.
+  [[nodiscard]] RigCalibration with_marks(std::vector<PointObservation> marks, Sightings& seen,
+                                          const RigCalibration& known) {
+    marks_ = std::move(marks);
+    mark_contradicting(seen);
+    if (2 * count(seen) < touches(seen).size()) {
+      marks_.clear();
+      mark_contradicting(seen);
+    }
+    if (marks_.empty()) return known;
+    auto solved = solve_rig(observations(seen));
+    return solved ? RigCalibration{observations(seen), *std::move(solved)} : known;
+  }
+
   void drop_dots_elsewhere(Sightings& seen) const {
     constexpr double usual_px_per_mm = 3.3;
     for (Sighting& sighting : seen) {
@@ -233,7 +266,9 @@ class TouchCalibration {
   const CalibrationPictures& pictures_;
   ImageSize image_;
   double scale_;
-  RigObservations seen_;  // without touches
+  RigObservations seen_;           // without touches and the page of marks
+  std::vector<ImagePoint> spots_;  // on the page of marks
+  std::vector<PointObservation> marks_;
 };
 
 }  // namespace

@@ -57,6 +57,11 @@ Result<Calibration> calibrate_default_from_recording(const RigDirectory& rig, co
     if (!triangle) return triangle.error();
     pictures.triangle = *std::move(triangle);
   }
+  if (rig.marks) {
+    auto marks = read_same_size(*rig.marks, first);
+    if (!marks) return marks.error();
+    pictures.marks = *std::move(marks);
+  }
   auto solved = calibrate_with_pictures(pictures);
   if (!solved) return Error{fmt::format("{}: {}", rig.path.string(), solved.error().message)};
   const RigCamera& camera = solved->solution.model.camera;

@@ -30,7 +30,8 @@ TEST_P(VirtualDots, PlaceTheCameraToPartsOfAMillimetre) {
   const BorderLine border{left.v_px - slope * left.u_px, slope};
 
   EXPECT_FALSE(find_calibration_dot(rig.picture_of_background(), border).has_value());
-  CalibrationPictures pictures{settings.screen, rig.picture_of_background(), rig.picture_of_triangle(), {}};
+  CalibrationPictures pictures{
+      settings.screen, rig.picture_of_background(), rig.picture_of_triangle(), std::nullopt, {}};
   for (const ScreenPoint& point : calibration_points(settings))
     pictures.touches.push_back({rig.picture_of_touch(point), point});
   const auto solved = calibrate_with_pictures(pictures);
@@ -64,37 +65,89 @@ VirtualRigSettings tilted(ImageSize image) {
 INSTANTIATE_TEST_SUITE_P(Rigs, VirtualDots,
                          testing::Values(VirtualRigSettings{}, tilted({1280, 720}), tilted({640, 480})));
 
+// Calibrated as `eval rigs` does it, with as different touches.
+class DrawnRig {
+ public:
+  explicit DrawnRig(std::uint64_t seed) : drawn_(random_rig(seed)), rig_(drawn_.settings, clock_) {}
+
+  CalibrationPictures pictures(std::size_t most_touches) {
+    CalibrationPictures taken{
+        drawn_.settings.screen, rig_.picture_of_background(), rig_.picture_of_triangle(), std::nullopt, {}};
+    for (const ScreenPoint& point : points()) {
+      if (taken.touches.size() == most_touches) break;
+      const HandPose pose = random_pose(drawn_.settings, drawn_.settings.hand, {point, 0}, taken.touches.size() + 1);
+      taken.touches.push_back({rig_.picture_of_touch(point, pose), point});
+    }
+    return taken;
+  }
+  cv::Mat picture_of_marks() { return rig_.picture_of_marks(); }
+  [[nodiscard]] std::vector<ScreenPoint> points() const { return calibration_points(drawn_.settings); }
+
+  // Mean sizes over places that this rig's camera sees.
+  [[nodiscard]] ScreenPoint errors_mm(const RigCalibration& solved, const std::vector<ScreenPoint>& places) const {
+    const RigCamera truth = camera_of(drawn_.settings);
+    ScreenPoint sum;
+    for (const ScreenPoint& at : places) {
+      const auto placed = solved.solution.model.camera.screen_point(truth.project(at).value());
+      if (!placed) return {1e9, 1e9};
+      sum.x_mm += std::abs(placed->x_mm - at.x_mm);
+      sum.y_mm += std::abs(placed->y_mm - at.y_mm);
+    }
+    const auto count = static_cast<double>(places.size());
+    return {sum.x_mm / count, sum.y_mm / count};
+  }
+  // All over the screen.
+  [[nodiscard]] std::vector<ScreenPoint> seen_places() const {
+    const RigCamera truth = camera_of(drawn_.settings);
+    std::vector<ScreenPoint> places;
+    for (double x = 0.02; x < 1; x += 0.04) {
+      for (double y = 0.4; y < 1; y += 0.1) {
+        const ScreenPoint place{x * drawn_.settings.screen.width_mm, y * drawn_.settings.screen.height_mm};
+        if (truth.sees(place)) places.push_back(place);
+      }
+    }
+    return places;
+  }
+
+ private:
+  RandomRig drawn_;
+  SteadyClock clock_;
+  VirtualRig rig_;
+};
+
 // Rigs that were hard to calibrate: a glove as white as the dots (60), dots at the picture's end (77), a white bezel
 // beside a white screen (93), a desk's edge longer than the screen's (96).
 class HardRigs : public testing::TestWithParam<std::uint64_t> {};
 
 TEST_P(HardRigs, AreCalibratedAsAnyOther) {
-  RandomRig drawn = random_rig(GetParam());
-  drawn.settings.real_time = false;
-  const SteadyClock clock;
-  VirtualRig rig(drawn.settings, clock);
-  CalibrationPictures pictures{drawn.settings.screen, rig.picture_of_background(), rig.picture_of_triangle(), {}};
-  for (const ScreenPoint& point : calibration_points(drawn.settings)) {
-    const HandPose pose = random_pose(drawn.settings, drawn.settings.hand, {point, 0}, pictures.touches.size() + 1);
-    pictures.touches.push_back({rig.picture_of_touch(point, pose), point});
-  }
-  const auto solved = calibrate_with_pictures(pictures);
+  DrawnRig rig(GetParam());
+  const auto solved = calibrate_with_pictures(rig.pictures(rig.points().size()));
   ASSERT_TRUE(solved.ok()) << solved.error().message;
-  EXPECT_TRUE(judge_calibration(*solved, calibration_points(drawn.settings)).good());
-  const RigCamera truth = camera_of(drawn.settings);
-  double vertical_mm = 0;
-  double horizontal_mm = 0;
-  for (const CalibrationPictures::Touch& touch : pictures.touches) {
-    const auto placed = solved->solution.model.camera.screen_point(truth.project(touch.screen).value());
-    ASSERT_TRUE(placed.has_value());
-    vertical_mm += std::abs(placed->y_mm - touch.screen.y_mm) / static_cast<double>(pictures.touches.size());
-    horizontal_mm += std::abs(placed->x_mm - touch.screen.x_mm) / static_cast<double>(pictures.touches.size());
-  }
-  EXPECT_LT(vertical_mm, 1);
-  EXPECT_LT(horizontal_mm, 0.6);
+  EXPECT_TRUE(judge_calibration(*solved, rig.points()).good());
+  const ScreenPoint error = rig.errors_mm(*solved, rig.points());
+  EXPECT_LT(error.y_mm, 1);
+  EXPECT_LT(error.x_mm, 0.6);
 }
 
 INSTANTIATE_TEST_SUITE_P(Seeds, HardRigs, testing::Values(60, 77, 93, 96));
+
+// Rigs that two touches place up to 7 mm off on average and 20 mm at the sides, most for a dot that its finger hides;
+// beside a white bezel (513) the edge is taken for another.
+class TwoTouchesAndMarks : public testing::TestWithParam<std::uint64_t> {};
+
+TEST_P(TwoTouchesAndMarks, PlaceTheCameraAsManyTouchesDo) {
+  DrawnRig rig(GetParam());
+  CalibrationPictures taken = rig.pictures(2);
+  taken.marks = rig.picture_of_marks();
+  const auto solved = calibrate_with_pictures(taken);
+  ASSERT_TRUE(solved.ok()) << solved.error().message;
+  EXPECT_TRUE(judge_calibration(*solved, {taken.touches[0].screen, taken.touches[1].screen}).good());
+  const ScreenPoint error = rig.errors_mm(*solved, rig.seen_places());
+  EXPECT_LT(error.y_mm, 0.6);
+  EXPECT_LT(error.x_mm, 0.3);
+}
+
+INSTANTIATE_TEST_SUITE_P(Seeds, TwoTouchesAndMarks, testing::Values(501, 504, 506, 512, 513, 517, 520, 522));
 
 }  // namespace
 }  // namespace telehug

@@ -42,12 +42,11 @@ TEST(EvalRigs, GivesTheSameForAnyNumberOfJobs) {
   const std::string page = html_report(report_of(options, alone, date));
   EXPECT_EQ(page, html_report(report_of(options, together, date)));
   EXPECT_THAT(page, HasSubstr("Touches of virtual rigs 1 to 2"));
-  // Two dots are few: not every rig can be calibrated with them.
-  EXPECT_LE(summarise(alone.rigs, 0).not_calibrated, 1U);
+  EXPECT_EQ(summarise(alone.rigs, 0).not_calibrated, 0U);
   for (const RigOutcome& rig : alone.rigs) {
     const AlgorithmOutcome& outcome = rig.algorithms.front();
-    if (!outcome.failure.empty()) continue;
-    EXPECT_THAT(outcome.calibration_errors_mm, SizeIs(2));
+    // Of two touches one may not be seen: the marks make up for it.
+    EXPECT_THAT(outcome.calibration_errors_mm, SizeIs(testing::AllOf(testing::Ge(1U), testing::Le(2U))));
     ASSERT_FALSE(outcome.score.touches.empty());
     EXPECT_THAT(outcome.score.touches.front().frame, StartsWith("frames/"));
     EXPECT_THAT(outcome.score.touches.back().frame, StartsWith("hard/"));

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <utility>
 
+#include "calibration/calibration_page.hpp"
 #include "calibration/calibration_policy.hpp"
 #include "doubles/drawn_bezel.hpp"
 #include "doubles/drawn_dots.hpp"
@@ -24,9 +25,20 @@ class ACalibrationWithPictures : public testing::Test {
 
   // Nothing but black, and dots with a finger on them: no edge of the screen is seen.
   [[nodiscard]] CalibrationPictures pictures() const {
-    CalibrationPictures taken{screen, DrawnDots(camera).picture(99), std::nullopt, {}};
+    CalibrationPictures taken{screen, DrawnDots(camera).picture(99), std::nullopt, std::nullopt, {}};
     for (const ScreenPoint& at : places)
       taken.touches.push_back({DrawnDots(camera).dot(at).finger(at).picture(taken.touches.size()), at});
+    return taken;
+  }
+
+  // The first of the touches, and the page of marks.
+  [[nodiscard]] CalibrationPictures pictures_with_marks(std::size_t touches) const {
+    CalibrationPictures taken = pictures();
+    taken.touches.resize(touches);
+    DrawnDots page(camera);
+    for (const ScreenPoint& mark : mark_points(screen))
+      page.dot(mark);
+    taken.marks = page.picture(98);
     return taken;
   }
 
@@ -95,6 +107,47 @@ TEST_F(ACalibrationWithPictures, IsNoneIfNoPictureShowsATouch) {
   const auto found = calibrate_with_pictures(taken);
   ASSERT_FALSE(found.ok());
   EXPECT_THAT(found.error().message, testing::HasSubstr("found in 0 of 7 calibration pictures"));
+}
+
+TEST_F(ACalibrationWithPictures, NeedsTwoTouchesIfThereAreMarks) {
+  const auto found = calibrate_with_pictures(pictures_with_marks(2));
+  ASSERT_TRUE(found.ok()) << found.error().message;
+  EXPECT_TRUE(judge_calibration(*found, {places[0], places[1]}).good());
+  EXPECT_GE(found->observations.marks.size(), 8U);
+  expect_true_camera(*found);
+}
+
+TEST_F(ACalibrationWithPictures, TellsByTheMarksWhichOfTwoTouchesWasElsewhere) {
+  CalibrationPictures taken = pictures_with_marks(2);
+  taken.touches[1].screen.x_mm += 15;
+  const auto found = calibrate_with_pictures(taken);
+  ASSERT_TRUE(found.ok()) << found.error().message;
+  EXPECT_FALSE(found->observations.touches[0].left_out);
+  EXPECT_TRUE(found->observations.touches[1].left_out);
+  expect_true_camera(*found);
+}
+
+TEST_F(ACalibrationWithPictures, GoesWithoutMarksThatContradictTheTouches) {
+  CalibrationPictures taken = pictures_with_marks(places.size());
+  // As if they had been shown in a window that begins farther right and down.
+  DrawnDots page(camera);
+  for (const ScreenPoint& mark : mark_points(screen))
+    page.dot({mark.x_mm + 18, mark.y_mm + 6});
+  taken.marks = page.picture(97);
+  const auto found = calibrate_with_pictures(taken);
+  ASSERT_TRUE(found.ok()) << found.error().message;
+  EXPECT_TRUE(found->observations.marks.empty());
+  EXPECT_TRUE(judge_calibration(*found, places).good());
+  expect_true_camera(*found);
+}
+
+TEST_F(ACalibrationWithPictures, GoesWithoutMarksThatAreNotShown) {
+  CalibrationPictures taken = pictures();
+  taken.marks = DrawnDots(camera).picture(96);
+  const auto found = calibrate_with_pictures(taken);
+  ASSERT_TRUE(found.ok()) << found.error().message;
+  EXPECT_TRUE(found->observations.marks.empty());
+  expect_true_camera(*found);
 }
 
 }  // namespace
