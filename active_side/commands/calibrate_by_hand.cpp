@@ -7,20 +7,17 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
-#include <filesystem>
 #include <istream>
-#include <opencv2/imgproc.hpp>
 #include <ostream>
 #include <string>
 #include <utility>
 
-#include "calibration/calibration_dot.hpp"
 #include "calibration/calibration_policy.hpp"
 #include "calibration/screen_border.hpp"
+#include "commands/calibration_pages.hpp"
 #include "detection/touch_calibration.hpp"
 #include "finger/thesis_detector.hpp"
 #include "pictures/median_picture.hpp"
-#include "pictures/picture_file.hpp"
 #include "touch/screen_points.hpp"
 
 namespace telehug {
@@ -29,62 +26,7 @@ namespace {
 constexpr int frames_measured = 15;
 constexpr int least_frames_with_finger = 8;
 constexpr int frames_of_a_second = 30;
-constexpr int frames_per_picture = 2;                 // of those that are kept in memory
-constexpr const char* pages = "telehug-calibration";  // a folder
-constexpr double px_per_mm = 4;                       // of the pictures, when the screen's pixels are not known
-
-cv::Size picture_size(const ScreenSize& screen) {
-  if (screen.width_px > 0 && screen.height_px > 0) return {screen.width_px, screen.height_px};
-  return {static_cast<int>(std::lround(screen.width_mm * px_per_mm)),
-          static_cast<int>(std::lround(screen.height_mm * px_per_mm))};
-}
-
-cv::Point to_px(const ScreenPoint& point, const ScreenSize& screen, cv::Size size) {
-  return {static_cast<int>(std::lround(point.x_mm / screen.width_mm * size.width)),
-          static_cast<int>(std::lround(point.y_mm / screen.height_mm * size.height))};
-}
-
-// Black on white, one vertex in the middle of the bottom edge: it tells the screen's own edge from the bezel's others.
-cv::Mat triangle_picture(const ScreenSize& screen) {
-  const cv::Size size = picture_size(screen);
-  cv::Mat picture(size, CV_8UC3, cv::Scalar::all(255));
-  const std::array corners{cv::Point(size.width / 2, size.height - 1), cv::Point(size.width / 4, size.height / 3),
-                           cv::Point(3 * size.width / 4, size.height / 3)};
-  cv::fillConvexPoly(picture, corners.data(), static_cast<int>(corners.size()), cv::Scalar::all(0), cv::LINE_AA);
-  return picture;
-}
-
-cv::Mat dot_picture(const ScreenSize& screen, const ScreenPoint& point) {
-  const cv::Size size = picture_size(screen);
-  cv::Mat picture(size, CV_8UC3, cv::Scalar::all(0));
-  const int radius = static_cast<int>(std::lround(calibration_dot_mm / 2 / screen.width_mm * size.width));
-  cv::circle(picture, to_px(point, screen, size), radius, cv::Scalar::all(255), cv::FILLED, cv::LINE_AA);
-  return picture;
-}
-
-// In the order in which they are needed, so that a picture viewer's key for the next one leads through them.
-std::string triangle_page() {
-  return fmt::format("{}/01-triangle.png", pages);
-}
-std::string black_page() {
-  return fmt::format("{}/02-black.png", pages);
-}
-std::string dot_page(std::size_t touch) {
-  return fmt::format("{}/{:02}-dot-{}.png", pages, touch + 3, touch + 1);
-}
-
-Status write_pages(const ScreenSize& screen, const std::vector<ScreenPoint>& points) {
-  std::error_code code;
-  std::filesystem::create_directories(pages, code);
-  if (code) return Error{fmt::format("can't make the folder {}: {}", pages, code.message())};
-  if (Status written = write_png(triangle_page(), triangle_picture(screen)); !written) return written;
-  if (Status written = write_png(black_page(), cv::Mat(picture_size(screen), CV_8UC3, cv::Scalar::all(0))); !written)
-    return written;
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    if (Status written = write_png(dot_page(i), dot_picture(screen, points[i])); !written) return written;
-  }
-  return Done{};
-}
+constexpr int frames_per_picture = 2;  // of those that are kept in memory
 
 Status ask(const std::string& what, std::istream& answers, std::ostream& instructions) {
   instructions << what << "\nThen press Enter. " << std::flush;
@@ -139,9 +81,9 @@ Result<MeasuredTouch> measure(FrameSource& camera, const BorderLine& border, con
 // The conversation with the person at the screen.
 class HandCalibrator {
  public:
-  HandCalibrator(FrameSource& camera, const ScreenSize& screen, std::vector<ScreenPoint> points, std::istream& answers,
-                 std::ostream& instructions)
-      : camera_(camera), points_(std::move(points)), answers_(answers), instructions_(instructions) {
+  HandCalibrator(FrameSource& camera, const ScreenSize& screen, CalibrationPages pages, std::vector<ScreenPoint> points,
+                 std::istream& answers, std::ostream& instructions)
+      : camera_(camera), pages_(pages), points_(std::move(points)), answers_(answers), instructions_(instructions) {
     seen_.screen = screen;
   }
 
@@ -149,18 +91,24 @@ class HandCalibrator {
     auto triangle = picture_when(
         fmt::format("Show {} on the whole screen, with any picture viewer. Take your hands, and all that does not stay "
                     "there, away from the screen and the desk before it.",
-                    triangle_page()));
+                    CalibrationPages::triangle()));
     if (!triangle) return triangle.error();
     seen_.triangle = *std::move(triangle);
-    auto empty = picture_when(fmt::format("Show the next one, {}: all black. Hands still away.", black_page()));
+    auto empty =
+        picture_when(fmt::format("Show the next one, {}: all black. Hands still away.", CalibrationPages::black()));
     if (!empty) return empty.error();
     seen_.empty = *std::move(empty);
+    if (!pages_.with_marks) return Done{};
+    auto marks =
+        picture_when(fmt::format("Show the next one, {}: many dots. Hands still away.", CalibrationPages::marks()));
+    if (!marks) return marks.error();
+    seen_.marks = *std::move(marks);
     return Done{};
   }
   [[nodiscard]] const CalibrationPictures& seen() const noexcept { return seen_; }
 
   Status ask_for_touch(std::size_t i) {
-    return ask(fmt::format("Show {} and lay a finger on the dot, from below; leave it there.", dot_page(i)), answers_,
+    return ask(fmt::format("Show {} and lay a finger on the dot, from below; leave it there.", pages_.dot(i)), answers_,
                instructions_);
   }
 
@@ -235,6 +183,7 @@ class HandCalibrator {
   }
 
   FrameSource& camera_;
+  CalibrationPages pages_;
   std::vector<ScreenPoint> points_;
   std::istream& answers_;
   std::ostream& instructions_;
@@ -281,9 +230,10 @@ Result<CalibratedRig> calibrate_by_hand(FrameSource& camera, const HandCalibrati
   if (points.empty()) points = thesis ? thesis_points(screen) : default_points(screen);
   if (thesis && points.size() != 2) return Error{"the thesis' model is calibrated with two touches: give two --point"};
   if (const Status opened = camera.open(); !opened) return opened.error();
-  if (const Status written = write_pages(screen, points); !written) return written.error();
+  const CalibrationPages pages{!thesis};
+  if (const Status written = pages.write(screen, points); !written) return written.error();
 
-  HandCalibrator calibrator(camera, screen, points, answers, instructions);
+  HandCalibrator calibrator(camera, screen, pages, points, answers, instructions);
   if (const Status looked = calibrator.look_at_empty_rig(); !looked) return looked.error();
   const CalibrationPictures& seen = calibrator.seen();
   if (thesis) {

@@ -32,9 +32,9 @@ Result<std::vector<ScreenPoint>> parse_points(const std::vector<std::string>& te
 [[nodiscard]] std::vector<ScreenPoint> default_points(const ScreenSize& screen);
 
 // Leads a person through it: `instructions` get what to do, and a line from `answers` says that it is done. Pictures to
-// show on the whole screen (written to the folder telehug-calibration in the current one): a triangle and a black one,
-// hands away, then a dot to touch for each point. With the default model a touch that does not fit is asked for once
-// more.
+// show on the whole screen (written to the folder telehug-calibration in the current one): a triangle, a black one and,
+// for the default model, one of marks, hands away, then a dot to touch for each point. With the default model a touch
+// that does not fit is asked for once more.
 Result<CalibratedRig> calibrate_by_hand(FrameSource& camera, const HandCalibration& wanted, const std::string& date,
                                         std::istream& answers, std::ostream& instructions);
 

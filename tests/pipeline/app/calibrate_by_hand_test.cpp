@@ -14,6 +14,7 @@
 #include <sstream>
 #include <streambuf>
 
+#include "calibration/calibration_page.hpp"
 #include "calibration/calibration_policy.hpp"
 #include "capture/virtual_rig/virtual_rig.hpp"
 #include "common/clock.hpp"
@@ -73,8 +74,9 @@ class CalibratingByHand : public testing::Test {
   CalibratingByHand() { std::filesystem::current_path(folder.path()); }
   ~CalibratingByHand() override { std::filesystem::current_path(before); }
 
-  std::vector<cv::Mat> pictures(const std::vector<ScreenPoint>& touched) {
+  std::vector<cv::Mat> pictures(const std::vector<ScreenPoint>& touched, bool with_marks = true) {
     std::vector<cv::Mat> found{rig.picture_of_triangle(), rig.picture_of_background()};
+    if (with_marks) found.push_back(rig.picture_of_marks());
     for (const ScreenPoint& point : touched)
       found.push_back(rig.picture_of_touch(point));
     return found;
@@ -115,11 +117,12 @@ TEST_F(CalibratingByHand, WritesAPictureForEachStepInTheirOrder) {
   ASSERT_TRUE(calibrate("default").ok());
   const std::string said = asked.str();
   std::size_t at = 0;
-  for (const char* page : {"01-triangle", "02-black", "03-dot-1", "04-dot-2", "05-dot-3", "06-dot-4", "07-dot-5"}) {
+  for (const char* page :
+       {"01-triangle", "02-black", "03-marks", "04-dot-1", "05-dot-2", "06-dot-3", "07-dot-4", "08-dot-5"}) {
     at = said.find(std::string("telehug-calibration/") + page + ".png", at);
     ASSERT_NE(at, std::string::npos) << page << " in " << said;
   }
-  const auto dot = read_picture("telehug-calibration/04-dot-2.png");
+  const auto dot = read_picture("telehug-calibration/05-dot-2.png");
   ASSERT_TRUE(dot.ok()) << dot.error().message;
   const ScreenSize& screen = rig.settings().screen;
   const int u = static_cast<int>(std::lround(points[1].x_mm / screen.width_mm * dot->cols));
@@ -128,10 +131,31 @@ TEST_F(CalibratingByHand, WritesAPictureForEachStepInTheirOrder) {
   EXPECT_EQ(dot->at<cv::Vec3b>(v, u + dot->cols / 10), cv::Vec3b(0, 0, 0));
 }
 
+TEST_F(CalibratingByHand, ShowsMarksWhereTheyAreLookedFor) {
+  camera.emplace(pictures(points));
+  const auto found = calibrate("default");
+  ASSERT_TRUE(found.ok()) << found.error().message;
+  // The triangle's vertex is one more.
+  EXPECT_GE(std::get<RigCalibration>(found->calibration.solved).observations.marks.size(), 9U);
+  const auto page = read_picture("telehug-calibration/03-marks.png");
+  ASSERT_TRUE(page.ok()) << page.error().message;
+  const ScreenSize& screen = rig.settings().screen;
+  std::size_t white = 0;
+  for (const ScreenPoint& mark : mark_points(screen)) {
+    const int u = static_cast<int>(mark.x_mm / screen.width_mm * page->cols);
+    const int v = static_cast<int>(mark.y_mm / screen.height_mm * page->rows);
+    if (page->at<cv::Vec3b>(v, u) == cv::Vec3b(255, 255, 255)) ++white;
+  }
+  EXPECT_EQ(white, mark_points(screen).size());
+  // And nothing else is white.
+  const double dots_share = static_cast<double>(white) * 78.5 / (screen.width_mm * screen.height_mm);
+  EXPECT_NEAR(cv::mean(*page)[0] / 255, dots_share, 0.1 * dots_share);
+}
+
 TEST_F(CalibratingByHand, AsksAgainForATouchThatDoesNotFit) {
   // At the last three nobody touches; then each is done as it should have been.
   std::vector<cv::Mat> shown = pictures(points);
-  shown[4] = shown[5] = shown[6] = shown[1];
+  shown[5] = shown[6] = shown[7] = shown[1];
   shown.push_back(rig.picture_of_touch(points[2]));
   shown.push_back(rig.picture_of_touch(points[3]));
   shown.push_back(rig.picture_of_touch(points[4]));
@@ -140,17 +164,19 @@ TEST_F(CalibratingByHand, AsksAgainForATouchThatDoesNotFit) {
   ASSERT_TRUE(found.ok()) << found.error().message;
   EXPECT_THAT(
       asked.str(),
-      HasSubstr("The touch of dot 3 was not seen, or does not fit the others. Show telehug-calibration/05-dot-3"));
+      HasSubstr("The touch of dot 3 was not seen, or does not fit the others. Show telehug-calibration/06-dot-3"));
   EXPECT_EQ(std::get<RigCalibration>(found->calibration.solved).observations.touches.size(), points.size());
   EXPECT_EQ(camera->shown(), shown.size());
 }
 
 TEST_F(CalibratingByHand, SolvesTheThesisModelFromTwoTouches) {
-  camera.emplace(pictures(thesis_points(rig.settings().screen)));
+  camera.emplace(pictures(thesis_points(rig.settings().screen), false));
   const auto found = calibrate("thesis");
   ASSERT_TRUE(found.ok()) << found.error().message;
   EXPECT_STREQ(found->calibration.model_name(), "thesis");
   EXPECT_EQ(camera->shown(), 4U);
+  EXPECT_TRUE(std::filesystem::exists("telehug-calibration/03-dot-1.png"));
+  EXPECT_FALSE(std::filesystem::exists("telehug-calibration/03-marks.png"));
 }
 
 TEST_F(CalibratingByHand, EndsIfNobodyAnswers) {
