@@ -146,6 +146,13 @@ void judge_accuracy(const RigCalibration& calibration, const CalibrationLimits& 
 
 }  // namespace
 
+CalibrationVerdict judge_calibration(const RigCalibration& calibration) {
+  std::vector<ScreenPoint> dots;
+  for (const PointObservation& touch : calibration.observations.touches)
+    dots.push_back(touch.screen);
+  return judge_calibration(calibration, dots);
+}
+
 CalibrationVerdict judge_calibration(const RigCalibration& calibration, const std::vector<ScreenPoint>& dots,
                                      const CalibrationLimits& limits) {
   CalibrationVerdict verdict;

@@ -32,8 +32,9 @@ struct CalibrationVerdict {
   [[nodiscard]] bool good() const noexcept { return faults.empty(); }
 };
 
-// `dots`: all points the person was asked to touch, in order; the touches are those of the first of them, or all.
-// Texts number touches and dots from 1.
+// `dots`: all points the person was asked to touch, in order; the touches are those of the first of them, or all: then
+// they need not be named. Texts number touches and dots from 1.
+[[nodiscard]] CalibrationVerdict judge_calibration(const RigCalibration& calibration);
 [[nodiscard]] CalibrationVerdict judge_calibration(const RigCalibration& calibration,
                                                    const std::vector<ScreenPoint>& dots,
                                                    const CalibrationLimits& limits = {});

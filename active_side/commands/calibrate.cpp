@@ -124,15 +124,12 @@ void print_touches(const RigCalibration& rig) {
 Status judge(const Calibration& calibration) {
   const auto* rig = std::get_if<RigCalibration>(&calibration.solved);
   if (rig == nullptr) return Done{};
-  std::vector<ScreenPoint> dots;
-  for (const PointObservation& touch : rig->observations.touches)
-    dots.push_back(touch.screen);
   print_touches(*rig);
-  const CalibrationVerdict verdict = judge_calibration(*rig, dots);
+  const CalibrationVerdict verdict = judge_calibration(*rig);
   for (const std::string& advice : verdict.advice)
     fmt::print("{}\n", advice);
   fmt::print("picture: {}; {} touches agree within {:.1f} mm\n", rig->solution.model.camera.orientation().name(),
-             dots.size(), largest_error_mm(*rig));
+             rig->observations.touches.size(), largest_error_mm(*rig));
   if (verdict.good()) return Done{};
   return Error{fmt::format("the calibration is not saved: {}", fmt::join(verdict.faults, "; "))};
 }

@@ -58,11 +58,7 @@ std::vector<ScreenPoint> calibration_errors(const Calibration& calibration) {
 // A calibration that `calibrate` would not save, with its reasons; empty if it would.
 std::string refusal(const Calibration& calibration) {
   const auto* const rig = std::get_if<RigCalibration>(&calibration.solved);
-  if (rig == nullptr) return "";
-  std::vector<ScreenPoint> dots;
-  for (const PointObservation& touch : rig->observations.touches)
-    dots.push_back(touch.screen);
-  return fmt::format("{}", fmt::join(judge_calibration(*rig, dots).faults, "; "));
+  return rig == nullptr ? "" : fmt::format("{}", fmt::join(judge_calibration(*rig).faults, "; "));
 }
 
 AlgorithmOutcome outcome_of(const EvalAlgorithm& algorithm, const RigDirectory& recording, bool failure_pictures) {
