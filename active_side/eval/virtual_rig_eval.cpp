@@ -19,18 +19,15 @@ namespace {
 
 using SteadyTime = std::chrono::steady_clock;
 
-// After so many frames the kinds come again (export_rig.cpp).
-constexpr std::uint64_t frame_kinds = 12;
-constexpr std::uint64_t hard_kinds = 2;
-
 ExportSettings pictures_of(std::uint64_t seed, const VirtualRigEval& options) {
   ExportSettings pictures;
   pictures.calibration_touches = options.dots;
   pictures.sequence_frames = 0;
   pictures.single_frames = options.frames;
   pictures.hard_frames = options.hard;
-  pictures.skipped_frames = static_cast<int>(seed * static_cast<std::uint64_t>(options.frames) % frame_kinds);
-  pictures.skipped_hard_frames = static_cast<int>(seed * static_cast<std::uint64_t>(options.hard) % hard_kinds);
+  pictures.skipped_frames = static_cast<int>(seed * static_cast<std::uint64_t>(options.frames) % frame_kinds_by_turns);
+  pictures.skipped_hard_frames =
+      static_cast<int>(seed * static_cast<std::uint64_t>(options.hard) % hard_kinds_by_turns);
   return pictures;
 }
 

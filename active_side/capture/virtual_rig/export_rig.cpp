@@ -28,6 +28,7 @@ constexpr std::array frame_kinds{FrameKind::touch, FrameKind::touch, FrameKind::
                                  FrameKind::hover, FrameKind::touch, FrameKind::touch, FrameKind::touch,
                                  FrameKind::palm};
 constexpr std::array hard_kinds{FrameKind::two_fingers, FrameKind::two_hands};
+static_assert(frame_kinds.size() == frame_kinds_by_turns && hard_kinds.size() == hard_kinds_by_turns);
 constexpr std::uint64_t hard_seed = 1000;  // frames count up from here, so that `frames` and `hard` differ
 
 class RigExporter {

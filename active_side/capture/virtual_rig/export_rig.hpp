@@ -8,6 +8,10 @@
 
 namespace telehug {
 
+// After so many single pictures, and hard ones, the kinds of frames come again.
+inline constexpr int frame_kinds_by_turns = 13;
+inline constexpr int hard_kinds_by_turns = 2;
+
 struct ExportSettings {
   int calibration_touches = 9;  // of calibration_points(), from the first on
   int sequence_frames = 120;    // how much of the script, from its beginning, becomes `sequence`; 0: none
