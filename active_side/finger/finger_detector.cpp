@@ -14,7 +14,7 @@ namespace {
 constexpr int least_width_px = 320;
 constexpr int least_height_px = 180;
 constexpr double least_overview_logit = -1;  // a tip that is looked at more closely
-constexpr double least_present_logit = 0;
+constexpr double least_present_logit = -1;
 constexpr int most_looks = 3;
 constexpr double settled_patch_px = 5;  // a patch that lay so well that another look would see the same
 

