@@ -41,15 +41,23 @@ class WatchedCamera : public ActivePipelineTest {
     return scene.noise(3, 4).picture();
   }
 
+  static Calibration upside_down_calibration() {
+    Calibration turned = calibration();
+    auto& camera = std::get<RigCalibration>(turned.solved).solution.model.camera;
+    camera = RigCamera(camera.parameters(), image, {.left_right_exchanged = false, .top_bottom_exchanged = true});
+    turned.border = border_line(camera, screen);
+    return turned;
+  }
+  ActivePipeline pipeline_of_upside_down_camera() {
+    const Calibration turned = upside_down_calibration();
+    return pipeline_with(detector_of(turned, "default", nobody()), turned);
+  }
+
   ActivePipeline watched = pipeline_with(detector_of(calibration(), "default", nobody()), calibration());
 };
 
 TEST_F(WatchedCamera, SeesTheSameUpsideDown) {
-  Calibration turned = calibration();
-  auto& camera = std::get<RigCalibration>(turned.solved).solution.model.camera;
-  camera = RigCamera(camera.parameters(), image, {.left_right_exchanged = false, .top_bottom_exchanged = true});
-  turned.border = border_line(camera, screen);
-  ActivePipeline upside_down = pipeline_with(detector_of(turned, "default", nobody()), turned);
+  ActivePipeline upside_down = pipeline_of_upside_down_camera();
   cv::Mat flipped;
   cv::flip(touching(), flipped, 0);
   const ScreenPoint upright = see(touching())->contacts.at(0).screen;
@@ -60,11 +68,7 @@ TEST_F(WatchedCamera, SeesTheSameUpsideDown) {
 }
 
 TEST_F(WatchedCamera, SeesTheSameInTheRowsThatAreNeeded) {
-  Calibration turned = calibration();
-  auto& camera = std::get<RigCalibration>(turned.solved).solution.model.camera;
-  camera = RigCamera(camera.parameters(), image, {.left_right_exchanged = false, .top_bottom_exchanged = true});
-  turned.border = border_line(camera, screen);
-  ActivePipeline upside_down = pipeline_with(detector_of(turned, "default", nobody()), turned);
+  ActivePipeline upside_down = pipeline_of_upside_down_camera();
   const ScreenPoint whole = see(touching())->contacts.at(0).screen;
   for (const bool flipped : {false, true}) {
     ActivePipeline& seeing = flipped ? upside_down : watched;
@@ -81,7 +85,7 @@ TEST_F(WatchedCamera, SeesTheSameInTheRowsThatAreNeeded) {
     EXPECT_EQ(seeing.rows_needed(), RowRange{}) << "until it is known how good pictures look";
     for (int i = 0; i < 40; ++i)
       see_rows(nobody());
-    EXPECT_EQ(seeing.rows_needed(), rows_needed(flipped ? turned : calibration()));
+    EXPECT_EQ(seeing.rows_needed(), rows_needed(flipped ? upside_down_calibration() : calibration()));
     EXPECT_EQ(seeing.rows_needed().count(), 416);
     const TouchEvent* event = see_rows(touching());
     ASSERT_NE(event, nullptr);
