@@ -93,7 +93,8 @@ RenderedFrame RenderedRig::frame(std::uint64_t index) {
       hand.looks->polish = cv::Vec3d(random.uniform(0, 255), random.uniform(0, 255), random.uniform(0, 255));
     if (random.chance(0.15)) hand.looks->nail_mm = random.uniform(3, 12);
     if (random.chance(0.12)) hand.looks->sleeve = Sleeve::glove;
-    // Real fingertips differ in shape and in how hard they press; what the net should go by is the picture, not a shape.
+    // Real fingertips differ in shape and in how hard they press; what the net should go by is the picture, not a
+    // shape.
     hand.looks->tip_radius_mm = random.uniform(5, 7.8);
     hand.looks->tip_flatness = random.uniform(0.72, 1);
     hand.looks->nail_width = random.uniform(0.6, 0.9);
