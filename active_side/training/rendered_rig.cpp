@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::array kinds{FrameKind::touch, FrameKind::hover, FrameKind::touch,     FrameKind::two_fingers,
                            FrameKind::hover, FrameKind::palm,  FrameKind::two_hands, FrameKind::touch,
-                           FrameKind::hover, FrameKind::away,  FrameKind::palm,      FrameKind::touch,
+                           FrameKind::hover, FrameKind::away,  FrameKind::palm,      FrameKind::two_fingers,
                            FrameKind::palm};
 
 RandomRig drawn(std::uint64_t seed) {
@@ -20,6 +20,10 @@ RandomRig drawn(std::uint64_t seed) {
   rig.settings.sensor.jpeg_quality = random.chance(0.8) ? static_cast<int>(random.uniform(60, 96)) : 0;
   // Two of its screen contents, so that little time goes into views.
   const std::size_t first = 1 + random.index(rig.contents.size() - 1);
+  if (random.chance(0.4)) {
+    rig.settings.light.contact_shade = random.uniform(0.1, 0.9);
+    rig.settings.light.contact_shade_mm = random.uniform(0.7, 6);
+  }
   rig.contents = {random.chance(0.3) ? ScreenContent::black : rig.contents[first]};
   return rig;
 }
@@ -88,16 +92,23 @@ RenderedFrame RenderedRig::frame(std::uint64_t index) {
   // Fingers that lie on their side, long nails and gloves are seldom, and hardest to see through.
   RandomNumbers random(seed + 5);
   for (HandPose& hand : drawn.hands) {
-    if (random.chance(0.5)) hand.turn_deg = random.uniform(-65, 65);
+    if (random.chance(0.5)) hand.turn_deg = random.uniform(-100, 100);
+    if (random.chance(0.3)) hand.approach_deg = random.uniform(hand.approach_deg, 86);
+    if (random.chance(0.3) && hand.posture == Posture::pointing && !hand.second)
+      hand.lean_deg += random.uniform(-20, 20);
     if (random.chance(0.3))
       hand.looks->polish = cv::Vec3d(random.uniform(0, 255), random.uniform(0, 255), random.uniform(0, 255));
-    if (random.chance(0.15)) hand.looks->nail_mm = random.uniform(3, 12);
+    if (random.chance(0.25)) hand.looks->nail_mm = random.uniform(3, 12);
     if (random.chance(0.12)) hand.looks->sleeve = Sleeve::glove;
     // Real fingertips differ in shape and in how hard they press; what the net should go by is the picture, not a
     // shape.
     hand.looks->tip_radius_mm = random.uniform(5, 7.8);
     hand.looks->tip_flatness = random.uniform(0.72, 1);
     hand.looks->nail_width = random.uniform(0.6, 0.9);
+    if (random.chance(0.4)) {
+      hand.looks->pulp_mm = random.uniform(0, 1.6);
+      hand.looks->pulp_side_mm = random.uniform(-2.5, 2.5);
+    }
     hand.press_mm = random.uniform(0.02, 0.6);
   }
   RenderedFrame frame;

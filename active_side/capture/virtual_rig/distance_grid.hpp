@@ -54,7 +54,8 @@ class DistanceGrid {
            static_cast<std::size_t>(x);
   }
   [[nodiscard]] std::size_t block_index(const cv::Vec3i& block) const {
-    return static_cast<std::size_t>((block[2] * blocks_[1] + block[1]) * blocks_[0] + block[0]);
+    const int index = (block[2] * blocks_[1] + block[1]) * blocks_[0] + block[0];
+    return static_cast<std::size_t>(index);
   }
   void add_to_block(const Limb& limb, const cv::Vec3i& block);
   void fill_block(const cv::Vec3i& block, float at_most_mm);

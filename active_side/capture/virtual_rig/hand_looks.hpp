@@ -15,6 +15,8 @@ struct HandLooks {
   double finger_width_mm = 15;      // of the index finger at its last joint, 12 to 20
   double tip_radius_mm = 6.6;       // of the ball at the end of a finger 16 mm wide: 5 pointed, 7.8 blunt
   double tip_flatness = 0.86;       // of that ball, from nail to pad: 0.7 flat, 1 round
+  double pulp_mm = 0;               // how far the pad bulges out of that ball; 2 is much
+  double pulp_side_mm = 0;          // where it does: to the little finger's side of the middle, -3 to 3
   double nail_width = 0.74;         // of the ball's; 0.6 narrow, 0.9 broad
   double nail_mm = 0.5;             // how far the nails reach past the finger's end; 12 is very long
   std::optional<cv::Vec3d> polish;  // blue, green, red of the nails, 0 to 255

@@ -51,6 +51,7 @@ void light_hand(const HandShape& shape, const FingerPlace& finger, const RoomLig
     Light light = product(vertex.tint, lighting.on(normal, openness) + screen * (screen_to_user * to_screen));
     const cv::Vec3f ray = project.position_mm - place;
     light += reflection(vertex, normal, ray * (1 / std::sqrt(ray.dot(ray))), lighting, lamp);
+    light *= lighting.near_screen(height);
 
     const auto [u_px, v_px, depth_mm] = project(place);
     seen.direct[i] = {u_px, v_px, depth_mm, light, height};

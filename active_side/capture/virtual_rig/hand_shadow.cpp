@@ -148,10 +148,11 @@ void HandShadow::factors(int v, float* factor) const {
     const float* here = &between[static_cast<std::size_t>(i + shaded.start / reduced - first)];
     const float before = here[0] - here[-1];
     const float behind = here[1] - here[0];
-    factor[4 * i] = here[0] - 0.375F * before;
-    factor[4 * i + 1] = here[0] - 0.125F * before;
-    factor[4 * i + 2] = here[0] + 0.125F * behind;
-    factor[4 * i + 3] = here[0] + 0.375F * behind;
+    float* const four = factor + 4 * static_cast<std::ptrdiff_t>(i);
+    four[0] = here[0] - 0.375F * before;
+    four[1] = here[0] - 0.125F * before;
+    four[2] = here[0] + 0.125F * behind;
+    four[3] = here[0] + 0.375F * behind;
   }
 }
 

@@ -82,7 +82,8 @@ cv::Vec3f place_of(const EndContact& end, const FingerPlace& finger) {
 }
 
 std::vector<Limb> first_finger(const HandSkeleton& skeleton) {
-  return {skeleton.pointing_limbs[0], skeleton.pointing_limbs[1]};
+  const auto first = skeleton.pointing_limbs.begin();
+  return {first, first + static_cast<std::ptrdiff_t>(skeleton.pointing_limbs.size() / skeleton.pointing)};
 }
 
 TriangleMesh coarse_hand(const HandSkeleton& skeleton) {

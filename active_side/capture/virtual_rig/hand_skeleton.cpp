@@ -181,13 +181,23 @@ class HandBuilder {
     const std::size_t first = skeleton_.limbs.size();
     const auto flatness = static_cast<float>(looks_.tip_flatness);
     add(end, end_joint, static_cast<float>(looks_.tip_radius_mm), 7.9F, tip.nail, flatness, 0.6F);
+    if (looks_.pulp_mm > 0) add_pulp(end, tip, flatness);
+    const std::size_t end_limbs = skeleton_.limbs.size() - first;
     add(end_joint, middle_joint, 7.8F, 8.6F, tip.nail, 0.9F, 0.6F);
     add(middle_joint, knuckle, 8.6F, 10.2F, base_nail, 0.95F, 1.5F);
     skeleton_.pointing_limbs.insert(skeleton_.pointing_limbs.end(),
                                     skeleton_.limbs.begin() + static_cast<std::ptrdiff_t>(first),
-                                    skeleton_.limbs.begin() + static_cast<std::ptrdiff_t>(first) + 2);
+                                    skeleton_.limbs.begin() + static_cast<std::ptrdiff_t>(first + end_limbs) + 1);
     skeleton_.ring_finger_segment = skeleton_.limbs.back();
     skeleton_.ends.push_back({end, tip.back, tip.nail, tip.side, skeleton_.limbs[first].a_radius_mm, flatness, 0.5F});
+  }
+
+  void add_pulp(const cv::Vec3f& end, const Directions& tip, float flatness) {
+    const auto ball_mm = static_cast<float>(looks_.tip_radius_mm);
+    const float radius_mm = 0.7F * ball_mm;
+    const cv::Vec3f from = end - tip.nail * mm(flatness * (ball_mm - radius_mm) + static_cast<float>(looks_.pulp_mm)) +
+                           tip.side * mm(static_cast<float>(looks_.pulp_side_mm));
+    add(from + tip.back * mm(1), from + tip.back * mm(8), radius_mm, radius_mm, tip.nail, flatness, 3);
   }
 
   // The middle joint of the second finger lies where both of its bones reach, on the nail's side; bones that are too

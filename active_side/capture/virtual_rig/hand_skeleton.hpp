@@ -24,7 +24,7 @@ struct HandSkeleton {
   std::vector<Limb> limbs;
   std::vector<FingerEnd> ends;       // those that are seen: index, middle finger if it points, thumb
   std::size_t pointing = 1;          // how many of `ends`, from the first, point at the screen
-  std::vector<Limb> pointing_limbs;  // the visible fingers alone, for a finer mesh
+  std::vector<Limb> pointing_limbs;  // the visible fingers alone, one after the other, for a finer mesh
   std::vector<Limb> clothes;         // around limbs, not blended with them
   Limb ring_finger_segment;          // where a ring would sit
 };

@@ -31,12 +31,19 @@ class RoomLighting {
   explicit RoomLighting(const RoomLight& light)
       : colour_(light.colour * light.level),
         towards_(light.towards * (1 / cv::norm(light.towards))),
-        directed_(static_cast<float>(light.directed)) {}
+        directed_(static_cast<float>(light.directed)),
+        contact_shade_(static_cast<float>(light.contact_shade)),
+        contact_shade_mm_(static_cast<float>(light.contact_shade_mm)) {}
 
   [[nodiscard]] Light on(const cv::Vec3f& normal, float openness = 1, float lamp_seen = 1) const {
     // Averaged over all directions a surface faces a lamp by a quarter; what faces it gets more than its share.
     const float facing = std::max(0.0F, normal.dot(towards_));
     return colour_ * ((1 - directed_) * openness + directed_ * lamp_seen * 2 * facing);
+  }
+
+  // What light on a hand is multiplied with this far from the screen.
+  [[nodiscard]] float near_screen(float height_mm) const {
+    return contact_shade_ > 0 ? 1 - contact_shade_ * std::exp(-height_mm / contact_shade_mm_) : 1.0F;
   }
 
   [[nodiscard]] const cv::Vec3f& towards() const noexcept { return towards_; }
@@ -46,6 +53,8 @@ class RoomLighting {
   Light colour_;
   cv::Vec3f towards_;
   float directed_;
+  float contact_shade_;
+  float contact_shade_mm_;
 };
 
 }  // namespace telehug

@@ -49,7 +49,8 @@ class MeshRaster {
     if (v < box_.y || v >= box_.y + box_.height) return;
     const cv::Range within = columns(v) & of_columns;
     const std::size_t line = static_cast<std::size_t>(v) * static_cast<std::size_t>(size_.width);
-    const std::uint8_t* coverage = &block_coverage_[static_cast<std::size_t>(v / block_px * blocks_across_)];
+    const int blocks_above = v / block_px * blocks_across_;
+    const std::uint8_t* coverage = &block_coverage_[static_cast<std::size_t>(blocks_above)];
     for (int u = within.start; u < within.end;) {
       const int end = std::min(within.end, (u / block_px + 1) * block_px);
       const std::uint8_t of_block = coverage[u / block_px];

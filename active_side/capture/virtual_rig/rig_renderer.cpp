@@ -31,7 +31,7 @@ bool same_shape(const HandPose& a, const HandPose& b) {
 // The pixels of all triangles, and some for the outlines' blur.
 cv::Rect box_of(const std::vector<SeenHand>& hands, std::vector<RasterVertex> SeenHand::*vertices,
                 const cv::Rect& within) {
-  constexpr float far = 1e5F;
+  static constexpr float far = 1e5F;
   float left = far;
   float top = far;
   float right = -far;
@@ -46,8 +46,8 @@ cv::Rect box_of(const std::vector<SeenHand>& hands, std::vector<RasterVertex> Se
     }
   }
   if (left > right) return {};
-  const auto low = [far](float x) { return static_cast<int>(std::max(x, -far)) - 2; };
-  const auto high = [far](float x) { return static_cast<int>(std::min(x, far)) + 3; };
+  const auto low = [](float x) { return static_cast<int>(std::max(x, -far)) - 2; };
+  const auto high = [](float x) { return static_cast<int>(std::min(x, far)) + 3; };
   return cv::Rect(cv::Point(low(left), low(top)), cv::Point(high(right), high(bottom))) & within;
 }
 
@@ -204,7 +204,7 @@ void RigRenderer::add_shadows() {
     for (int u = 0; u < columns.size(); ++u) {
       const auto share =
           static_cast<std::uint16_t>(static_cast<int>(shadow_factor_[static_cast<std::size_t>(u)] * 65535));
-      std::fill_n(&shares_[static_cast<std::size_t>(3 * u)], 3, share);
+      std::fill_n(&shares_[3 * static_cast<std::size_t>(u)], 3, share);
     }
     auto* row = coded_.ptr<std::uint16_t>(v) + 3 * static_cast<std::ptrdiff_t>(columns.start);
     const std::uint16_t* share = shares_.data();

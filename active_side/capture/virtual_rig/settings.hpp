@@ -28,6 +28,8 @@ struct RoomLight {
   cv::Vec3d colour{1, 1, 1};             // blue, green, red; warm light: {0.7, 0.9, 1.1}
   cv::Vec3d towards{0.15, -0.83, 0.53};  // the lamp, in the rig frame (-y: above)
   double directed = 0.22;                // share that comes from there, the rest comes from all sides
+  double contact_shade = 0;     // share that skin loses where it meets the screen, as other fingers keep light away
+  double contact_shade_mm = 3;  // at this distance from the screen e times less
 
   bool operator==(const RoomLight&) const = default;
 };

@@ -167,6 +167,19 @@ TEST(RigFeatures, PolishRingAndSleeveAreSeen) {
   EXPECT_GT(changed([](HandLooks& hand) { hand.finger_width_mm = 20; }), 1500);
 }
 
+TEST(RigFeatures, WhereSkinMeetsTheScreenItMayBeShaded) {
+  VirtualRigSettings settings = plain_rig();
+  const PinholeCamera camera(settings.camera, settings.focal_px, settings.image);
+  const ImagePoint tip = camera.project({190, 200, 0});
+  const cv::Rect pad(static_cast<int>(tip.u_px) - 2, static_cast<int>(tip.v_px) - 4, 5, 2);
+  const cv::Rect nail(static_cast<int>(tip.u_px) - 3, static_cast<int>(tip.v_px) - 40, 7, 7);
+  const cv::Mat usual = picture(settings, {touch_at(190, 200)});
+  settings.light.contact_shade = 0.8;
+  const cv::Mat shaded = picture(settings, {touch_at(190, 200)});
+  EXPECT_LT(tone(shaded, pad), 0.85 * tone(usual, pad));
+  EXPECT_GT(tone(shaded, nail), 0.95 * tone(usual, nail));
+}
+
 TEST(RigFeatures, AHandThrowsAShadowOntoTheDesk) {
   VirtualRigSettings settings = plain_rig();
   settings.light.towards = {-1, -1, 0.3};  // from the user's left: the shadow falls to the right, left in the picture
