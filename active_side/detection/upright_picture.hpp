@@ -18,6 +18,7 @@ class UprightPicture {
 
   // The picture itself if it is upright, or of another size. Valid until the next call, and as long as `bgr` is.
   // Only `rows` of `bgr` need be right. Allocates nothing.
+  const cv::Mat& of(cv::Mat&& bgr, RowRange rows = {}) = delete;
   const cv::Mat& of(const cv::Mat& bgr, RowRange rows = {}) {
     constexpr int about_the_middle_row = 0;
     if (bgr.size() != flipped_.size() || bgr.type() != flipped_.type()) return bgr;
