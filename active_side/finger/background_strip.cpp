@@ -15,7 +15,7 @@ constexpr float uneven_light = 0.06F;
 constexpr float like_background = 2;  // distance below which a cell helps to find the gain
 constexpr float dark = 3;             // keeps ratios of black cells finite
 constexpr int levelling_rounds = 2;
-constexpr int median_step = 8;  // every how many cells the first gain looks at
+constexpr int part_columns = 32;  // the first gain is the median over parts of so many columns
 
 // Shares of the way to the present frame, at 30 frames a second: half a second, 20 seconds, 2 minutes.
 constexpr float learn_background = 1.0F / 15;
@@ -29,7 +29,7 @@ BackgroundStrip::BackgroundStrip(const BorderStrip::Layout& layout, const Border
       background_(empty),
       inverse_deviation_(layout.cells() * BorderStrip::channels),
       distance_(layout.cells()),
-      scratch_(static_cast<std::size_t>(layout.columns)) {
+      ratios_(static_cast<std::size_t>(layout.columns / part_columns + 1)) {
   for (int rail = 0; rail < BorderStrip::rails; ++rail)
     set_background(rail);
 }
@@ -74,15 +74,22 @@ BackgroundStrip::RailView BackgroundStrip::view(const BorderStrip& strip, int ra
   return view;
 }
 
-// The median over the rail of how much brighter the background was.
-BackgroundStrip::Gain BackgroundStrip::first_gain(const RailView& rail) {
+// The median over the rail's parts of how much brighter the background was.
+TELEHUG_INLINE BackgroundStrip::Gain BackgroundStrip::first_gain(const RailView& rail) {
   Gain gain;
   for (std::size_t k = 0; k < gain.size(); ++k) {
-    std::size_t n = 0;
-    for (int i = 0; i < columns_; i += median_step)
-      scratch_[n++] = (rail.then[k][i] + dark) / (rail.now[k][i] + dark);
-    const auto middle = scratch_.begin() + static_cast<std::ptrdiff_t>(n / 2);
-    std::nth_element(scratch_.begin(), middle, scratch_.begin() + static_cast<std::ptrdiff_t>(n));
+    auto end = ratios_.begin();
+    for (int first = 0; first < columns_; first += part_columns) {
+      float then = 0;
+      float now = 0;
+      for (int i = first; i < std::min(first + part_columns, columns_); ++i) {
+        then += rail.then[k][i] + dark;
+        now += rail.now[k][i] + dark;
+      }
+      *end++ = then / now;
+    }
+    const auto middle = ratios_.begin() + (end - ratios_.begin()) / 2;
+    std::nth_element(ratios_.begin(), middle, end);
     gain[k] = *middle;
   }
   return gain;

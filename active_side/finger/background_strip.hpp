@@ -58,7 +58,7 @@ class BackgroundStrip {
   std::vector<float> inverse_deviation_;  // of each value
   std::vector<float> distance_;
   std::array<Gain, BorderStrip::rails> gain_{};  // background = gain * frame
-  std::vector<float> scratch_;
+  std::vector<float> ratios_;                    // of parts of a rail
   double unchanged_share_ = 1;
 };
 

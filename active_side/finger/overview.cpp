@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <numeric>
 #include <stdexcept>
 
 #include "common/simd.hpp"
@@ -70,26 +71,24 @@ Overview::Overview(const BorderCurve& border, const BorderStrip::Layout& strip, 
       const double beyond_px = middle.v_px - border.v_at(middle.u_px);
       const int rail = rail_at(-beyond_px / strip.scale);
       const int first = std::clamp(column * cell_px_ / strip.column_px, 0, strip.columns - cells_of_strip_);
-      strip_start_.push_back(rail < 0 ? -1 : rail * strip.columns + first);
+      if (rail >= 0) {
+        const int start = rail * strip.columns + first;
+        strip_cells_.push_back({cell(row, column), static_cast<std::size_t>(column), static_cast<std::size_t>(start)});
+      }
       beyond_edge_.push_back(static_cast<float>(std::clamp(beyond_px / cell_px_ / edge_reach_cells, -1.0, 1.0)));
     }
   }
-  difference_.resize(strip_start_.size());
+  difference_.resize(beyond_edge_.size());
 }
 
 const Overview::Tiles& Overview::tiles(const std::vector<float>& distance) {
   const float share = 1 / static_cast<float>(cells_of_strip_);
   std::fill(different_.begin(), different_.end(), 0);
-  for (int row = 0; row < rows_; ++row) {
-    for (int column = 0; column < columns_; ++column) {
-      const int start = strip_start_[cell(row, column)];
-      if (start < 0) continue;
-      float sum = 0;
-      for (int i = 0; i < cells_of_strip_; ++i)
-        sum += distance[static_cast<std::size_t>(start + i)];
-      difference_[cell(row, column)] = sum * share / BackgroundStrip::far;
-      different_[static_cast<std::size_t>(column)] += sum * share > different ? 1 : 0;
-    }
+  for (const StripCell& cell : strip_cells_) {
+    const float* const here = &distance[cell.start];
+    const float mean = share * std::accumulate(here, here + cells_of_strip_, 0.0F);
+    difference_[cell.cell] = mean / BackgroundStrip::far;
+    different_[cell.column] += mean > different ? 1 : 0;
   }
   tiles_.clear();
   const auto differs = [this](int column) { return different_[static_cast<std::size_t>(column)] >= least_different; };

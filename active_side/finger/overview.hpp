@@ -77,10 +77,16 @@ class Overview {
   int seen_rows_ = 0;
   int narrow_columns_ = 0;
   int wide_columns_ = 0;
-  int cells_of_strip_;                // how many columns of the strip lie in one cell
-  std::vector<int> strip_start_;      // of each cell: the first of them, or -1
+  int cells_of_strip_;  // how many columns of the strip lie in one cell
+  // A cell that lies in the strip, and the first of the strip's cells in it.
+  struct StripCell {
+    std::size_t cell;
+    std::size_t column;
+    std::size_t start;
+  };
+  std::vector<StripCell> strip_cells_;
   std::vector<float> beyond_edge_;    // of each cell
-  std::vector<float> difference_;     // of each cell from the background
+  std::vector<float> difference_;     // of each cell from the background; 0 where the strip is not
   std::vector<int> different_;        // of each column: how many cells are
   std::vector<unsigned short> sums_;  // of the picture's columns, over a cell's rows
   Tiles tiles_;
