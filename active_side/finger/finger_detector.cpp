@@ -15,14 +15,23 @@ constexpr int least_width_px = 320;
 constexpr int least_height_px = 180;
 constexpr double least_overview_logit = -1;  // a tip that is looked at more closely
 constexpr double least_present_logit = -1;
-constexpr int most_looks = 3;
-constexpr double settled_patch_px = 5;  // a patch that lay so well that another look would see the same
+constexpr double agreeing_patch_px = 5;  // looks further apart than that are followed by another one
 
 ImageSize checked(ImageSize image) {
   if (image.width_px < least_width_px || image.height_px < least_height_px) {
     throw std::invalid_argument("pictures of this size are too small to look for fingers");
   }
   return image;
+}
+
+// Of all that does not depend on where the patches lay.
+TipLook mean(const TipLook& a, const TipLook& b) {
+  TipLook both = a;
+  both.present_logit = (a.present_logit + b.present_logit) / 2;
+  both.touches_logit = (a.touches_logit + b.touches_logit) / 2;
+  both.hover_mm = (a.hover_mm + b.hover_mm) / 2;
+  both.width = (a.width + b.width) / 2;
+  return both;
 }
 
 MirrorEvidence evidence(const TipLook& look) {
@@ -86,29 +95,40 @@ void FingerDetector::add_finger(const cv::Mat& bgr, const ImagePoint& near) {
   mark_columns(*finger);
 }
 
-// A patch is laid where the tip should be, and again if it was elsewhere.
-std::optional<Finger> FingerDetector::look_at(const cv::Mat& bgr, ImagePoint tip) {
-  TipLook look;
-  double step_px = 1;
-  for (int i = 0; i < most_looks; ++i) {
-    PatchPlace place;
-    place.columns = TipNet::columns;
-    place.rows = TipNet::rows;
-    place.step_px = step_px = px_per_mm(tip) / patch_px_per_mm;
-    place.middle.u_px = tip.u_px + (0.5 * (TipNet::columns - 1) - TipNet::tip_column) * step_px;
-    place.middle.v_px = tip.v_px + (0.5 * (TipNet::rows - 1) - TipNet::tip_row) * step_px;
-    sample_patch(bgr, place, tip_net_.patch());
-    const double half_width_px = image_.width_px / 2.0;
-    look =
-        tip_net_.look((tip.u_px - half_width_px) / half_width_px, (tip.v_px - image_.height_px / 2.0) / half_width_px);
-    const double moved = std::max(std::abs(look.column - TipNet::tip_column), std::abs(look.row - TipNet::tip_row));
-    tip = place.picture_point(look.column, look.row);
-    if (moved < settled_patch_px) break;
+FingerDetector::Look FingerDetector::look_once(const cv::Mat& bgr, const ImagePoint& near, bool mirrored) {
+  PatchPlace place;
+  place.columns = TipNet::columns;
+  place.rows = TipNet::rows;
+  place.step_px = px_per_mm(near) / patch_px_per_mm;
+  place.mirrored = mirrored;
+  place.middle = near;
+  const ImagePoint beside = place.picture_point(TipNet::tip_column, TipNet::tip_row);
+  place.middle = {2 * near.u_px - beside.u_px, 2 * near.v_px - beside.v_px};
+  sample_patch(bgr, place, tip_net_.patch());
+  const double half_width_px = image_.width_px / 2.0;
+  const double u = (near.u_px - half_width_px) / half_width_px;
+  const double v = (near.v_px - image_.height_px / 2.0) / half_width_px;
+  const TipLook seen = tip_net_.look(mirrored ? -u : u, v);
+  return {place.picture_point(seen.column, seen.row), place.step_px, seen};
+}
+
+// A patch is laid where the tip should be, and once more about what was found, mirrored: what the net mistakes in a
+// hand it seldom mistakes in the other one. What both looks say is averaged, if need be those of the second and a third
+// one.
+std::optional<Finger> FingerDetector::look_at(const cv::Mat& bgr, const ImagePoint& near) {
+  Look before = look_once(bgr, near, false);
+  Look last = look_once(bgr, before.tip, true);
+  const double apart_px = std::hypot(last.tip.u_px - before.tip.u_px, last.tip.v_px - before.tip.v_px);
+  if (apart_px > agreeing_patch_px * last.step_px) {
+    before = last;
+    last = look_once(bgr, last.tip, false);
   }
+  const ImagePoint tip{(before.tip.u_px + last.tip.u_px) / 2, (before.tip.v_px + last.tip.v_px) / 2};
+  const TipLook look = mean(before.seen, last.seen);
   const double length_px = tip.v_px - border_.v_at(tip.u_px);
   if (look.present_logit < least_present_logit || length_px <= 0) return std::nullopt;
   if (tip.v_px >= image_.height_px || tip.u_px < 0 || tip.u_px > image_.width_px - 1) return std::nullopt;
-  const double width_px = look.width * step_px;
+  const double width_px = look.width * last.step_px;
   Finger finger{tip, length_px, tip.u_px - width_px / 2, tip.u_px + width_px / 2};
   finger.width_px = width_px;
   finger.contact = tip;

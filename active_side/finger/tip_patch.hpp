@@ -19,10 +19,12 @@ struct PatchPlace {
   double step_px = 1;  // picture pixels per patch pixel, > 0
   int columns = 0;
   int rows = 0;
+  bool mirrored = false;  // its columns run from the picture's right to its left
 
   // The picture's point under a patch pixel, counted from 0; parts of pixels are allowed.
   [[nodiscard]] ImagePoint picture_point(double column, double row) const noexcept {
-    return {middle.u_px + (column - 0.5 * (columns - 1)) * step_px, middle.v_px + (row - 0.5 * (rows - 1)) * step_px};
+    const double across_px = (column - 0.5 * (columns - 1)) * step_px;
+    return {middle.u_px + (mirrored ? -across_px : across_px), middle.v_px + (row - 0.5 * (rows - 1)) * step_px};
   }
 };
 

@@ -29,8 +29,8 @@ std::vector<float> patch_of(const cv::Mat& bgr, const PatchPlace& place) {
 }
 
 TEST(TipPatch, IsInterpolatedAtItsPlace) {
-  for (const double step : {0.4, 1.0, 1.7}) {
-    const PatchPlace place{{40.3, 30.7}, step, columns, rows};
+  for (const auto& [step, mirrored] : {std::pair{0.4, false}, {1.0, false}, {1.7, false}, {0.4, true}, {1.7, true}}) {
+    const PatchPlace place{{40.3, 30.7}, step, columns, rows, mirrored};
     const auto values = patch_of(ramps(), place);
     for (int row = 0; row < rows; ++row) {
       for (int column = 0; column < columns; ++column) {
@@ -49,6 +49,29 @@ TEST(TipPatch, IsLaidAboutItsMiddle) {
   EXPECT_NEAR(place.picture_point(5.5, 4).u_px, 40, 1e-9);
   EXPECT_NEAR(place.picture_point(5.5, 4).v_px, 30, 1e-9);
   EXPECT_NEAR(place.picture_point(6.5, 4).u_px, 42, 1e-9);
+}
+
+TEST(TipPatch, RunsFromThePicturesRightToItsLeftIfMirrored) {
+  const PatchPlace plain{{40.3, 30}, 2, columns, rows};
+  PatchPlace mirrored = plain;
+  mirrored.mirrored = true;
+  for (const double column : {0.0, 3.2, 11.0}) {
+    EXPECT_NEAR(mirrored.picture_point(column, 2).u_px, plain.picture_point(columns - 1 - column, 2).u_px, 1e-9);
+    EXPECT_NEAR(mirrored.picture_point(column, 2).v_px, plain.picture_point(column, 2).v_px, 1e-9);
+  }
+}
+
+TEST(TipPatch, MayBeWiderThanTheLinesThatAreMixedAtOnce) {
+  cv::Mat bgr(40, 1000, CV_8UC3);
+  cv::randu(bgr, 0, 256);
+  for (const bool mirrored : {false, true}) {
+    const PatchPlace place{{500, 20}, 80, columns, 1, mirrored};
+    const auto values = patch_of(bgr, place);
+    for (int column = 0; column < columns; ++column) {
+      const auto u = static_cast<int>(place.picture_point(column, 0).u_px);
+      EXPECT_NEAR((values[static_cast<std::size_t>(3 * column)] + 1) * 127.5, bgr.at<cv::Vec3b>(20, u)[0], 1e-3) << u;
+    }
+  }
 }
 
 TEST(TipPatch, GoesOnBeyondThePictureAsItEnds) {
