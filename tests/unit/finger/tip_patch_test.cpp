@@ -23,7 +23,7 @@ cv::Mat ramps() {
 }
 
 std::vector<float> patch_of(const cv::Mat& bgr, const PatchPlace& place) {
-  std::vector<float> values(rows * columns * 3);
+  std::vector<float> values(std::size_t{rows} * columns * 3);
   sample_patch(bgr, place, values.data());
   return values;
 }
@@ -35,7 +35,7 @@ TEST(TipPatch, IsInterpolatedAtItsPlace) {
     for (int row = 0; row < rows; ++row) {
       for (int column = 0; column < columns; ++column) {
         const ImagePoint at = place.picture_point(column, row);
-        const float* const pixel = values.data() + (row * columns + column) * 3;
+        const float* const pixel = &values[3 * static_cast<std::size_t>(row * columns + column)];
         EXPECT_NEAR((pixel[0] + 1) * 127.5, 3 * at.u_px, 1e-3);
         EXPECT_NEAR((pixel[1] + 1) * 127.5, 4 * at.v_px, 1e-3);
         EXPECT_NEAR((pixel[2] + 1) * 127.5, 51, 1e-3);
