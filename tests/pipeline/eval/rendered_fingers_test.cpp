@@ -30,12 +30,8 @@ class WatchedRig {
  public:
   explicit WatchedRig(std::uint64_t seed)
       : rig_(random_rig(seed)), renderer_(rig_.settings), calibration_(calibration_of(rig_.settings)) {
-    cv::Mat empty;
-    renderer_.draw(std::vector<HandPose>{}, 0, empty);
-    const BorderStrip::Layout layout = strip_layout(calibration_);
-    BorderStrip strip(layout);
-    strip.sample(empty, layout);
-    detector_ = std::make_unique<AnyDetector>(make_detector("default", calibration_, strip));
+    renderer_.draw(std::vector<HandPose>{}, 0, empty_);
+    detector_ = detector_of(calibration_, empty_);
   }
 
   RandomFrame draw(FrameKind kind, std::uint64_t seed) {
@@ -51,17 +47,44 @@ class WatchedRig {
     return frame;
   }
   const Fingers& detect() { return telehug::detect(*detector_, picture_); }
+  // As if the camera exchanged left and right; where the fingers it sees touch the screen.
+  std::vector<ScreenPoint> detect_mirrored() {
+    const RigCamera upright = camera_of(rig_.settings);
+    const RigCamera camera(upright.parameters(), upright.image(), {.left_right_exchanged = true});
+    Calibration exchanged = calibration_;
+    std::get<RigCalibration>(exchanged.solved).solution.model.camera = camera;
+    exchanged.border = border_line(camera, rig_.settings.screen);
+    if (!mirrored_detector_) mirrored_detector_ = detector_of(exchanged, flipped(empty_));
+    std::vector<ScreenPoint> places;
+    for (const Finger& finger : telehug::detect(*mirrored_detector_, flipped(picture_)))
+      places.push_back(camera.screen_point(*finger.contact).value());
+    return places;
+  }
   [[nodiscard]] ScreenPoint place_of(const Finger& finger) const {
     return camera_of(rig_.settings).screen_point(*finger.contact).value();
   }
   [[nodiscard]] bool mirrors() const { return rig_.group.coat == "glossy"; }
 
  private:
+  static cv::Mat flipped(const cv::Mat& picture) {
+    cv::Mat other;
+    cv::flip(picture, other, 1);
+    return other;
+  }
+  static std::unique_ptr<AnyDetector> detector_of(const Calibration& calibration, const cv::Mat& empty) {
+    const BorderStrip::Layout layout = strip_layout(calibration);
+    BorderStrip strip(layout);
+    strip.sample(empty, layout);
+    return std::make_unique<AnyDetector>(make_detector("default", calibration, strip));
+  }
+
   RandomRig rig_;
   RigRenderer renderer_;
   Calibration calibration_;
   std::unique_ptr<AnyDetector> detector_;
+  std::unique_ptr<AnyDetector> mirrored_detector_;
   std::map<ScreenContent, std::shared_ptr<RigView>> views_;
+  cv::Mat empty_;
   cv::Mat picture_;
 };
 
@@ -138,6 +161,25 @@ TEST(RenderedFingers, OfTwoHandsAreBothFound) {
   EXPECT_LE(errors.missed, 4U) << "of " << errors.touches << ": " << errors.which;
   EXPECT_LT(Errors::mean(errors.vertical_mm), 1.5);
   EXPECT_LT(Errors::mean(errors.horizontal_mm), 0.9);
+}
+
+// Each hand is looked at as a left and as a right one, so it hardly matters which one it is.
+TEST(RenderedFingers, AreFoundAtTheSamePlacesInAMirroredPicture) {
+  std::vector<double> apart_mm;
+  for (std::uint64_t seed = first_rig; seed < first_rig + rigs; ++seed) {
+    WatchedRig rig(seed);
+    for (std::uint64_t frame = 1; frame <= 8; ++frame) {
+      rig.draw(FrameKind::touch, seed * 100 + frame);
+      const Fingers& fingers = rig.detect();
+      const std::vector<ScreenPoint> mirrored = rig.detect_mirrored();
+      if (fingers.size() != 1 || mirrored.size() != 1) continue;
+      const ScreenPoint place = rig.place_of(fingers.front());
+      apart_mm.push_back(std::hypot(place.x_mm - mirrored[0].x_mm, place.y_mm - mirrored[0].y_mm));
+    }
+  }
+  EXPECT_GT(apart_mm.size(), 70U);
+  std::sort(apart_mm.begin(), apart_mm.end());
+  EXPECT_LT(apart_mm[apart_mm.size() / 2], 0.3);
 }
 
 TEST(RenderedFingers, AreNotFoundWhereNobodyIsOrNobodyCrossesTheBorder) {

@@ -77,11 +77,13 @@ TEST(TipPatch, MayBeWiderThanTheLinesThatAreMixedAtOnce) {
 TEST(TipPatch, GoesOnBeyondThePictureAsItEnds) {
   const cv::Mat bgr = ramps();
   for (const ImagePoint middle : {ImagePoint{-500, -500}, {5000, 5000}, {-3, 61}, {80, -2}}) {
-    const PatchPlace place{middle, 1, columns, rows};
-    const auto values = patch_of(bgr, place);
-    const ImagePoint at = place.picture_point(0, 0);
-    EXPECT_NEAR((values[0] + 1) * 127.5, 3 * std::clamp(at.u_px, 0.0, 79.0), 1e-3);
-    EXPECT_NEAR((values[1] + 1) * 127.5, 4 * std::clamp(at.v_px, 0.0, 59.0), 1e-3);
+    for (const bool mirrored : {false, true}) {
+      const PatchPlace place{middle, 1, columns, rows, mirrored};
+      const auto values = patch_of(bgr, place);
+      const ImagePoint at = place.picture_point(0, 0);
+      EXPECT_NEAR((values[0] + 1) * 127.5, 3 * std::clamp(at.u_px, 0.0, 79.0), 1e-3);
+      EXPECT_NEAR((values[1] + 1) * 127.5, 4 * std::clamp(at.v_px, 0.0, 59.0), 1e-3);
+    }
   }
 }
 
