@@ -53,14 +53,15 @@ class FingerDetector {
   [[nodiscard]] std::uint64_t unfit_pictures() const noexcept { return unfit_pictures_; }
 
  private:
-  [[nodiscard]] double px_per_mm(const ImagePoint& place) const;
-  void add_finger(const cv::Mat& bgr, const ImagePoint& near);
   // What the tip net says of a patch, and where that is in the picture.
   struct Look {
     ImagePoint tip;
     double step_px = 1;  // picture pixels per patch pixel
     TipLook seen;
   };
+
+  [[nodiscard]] double px_per_mm(const ImagePoint& place) const;
+  void add_finger(const cv::Mat& bgr, const ImagePoint& near);
   [[nodiscard]] Look look_once(const cv::Mat& bgr, const ImagePoint& near, bool mirrored);
   [[nodiscard]] std::optional<Finger> look_at(const cv::Mat& bgr, const ImagePoint& near);
   void mark_columns(const Finger& finger);

@@ -64,6 +64,13 @@ class Overview {
   }
 
  private:
+  // A cell that lies in the strip, and the first of the strip's cells in it.
+  struct StripCell {
+    std::size_t cell;
+    std::size_t column;
+    std::size_t start;
+  };
+
   [[nodiscard]] std::size_t cell(int row, int column) const noexcept {
     return static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) + static_cast<std::size_t>(column);
   }
@@ -78,12 +85,6 @@ class Overview {
   int narrow_columns_ = 0;
   int wide_columns_ = 0;
   int cells_of_strip_;  // how many columns of the strip lie in one cell
-  // A cell that lies in the strip, and the first of the strip's cells in it.
-  struct StripCell {
-    std::size_t cell;
-    std::size_t column;
-    std::size_t start;
-  };
   std::vector<StripCell> strip_cells_;
   std::vector<float> beyond_edge_;    // of each cell
   std::vector<float> difference_;     // of each cell from the background; 0 where the strip is not

@@ -47,13 +47,22 @@ int main(int argc, char** argv) {
   app.add_option("--from", from, "Seed of the first rig");
   app.add_option("--rigs", rigs, "How many rigs");
   app.add_option("--frames", frames, "How many pictures of each");
-  app.add_option("--pictures", folder, "What some of the screens show: JPEG and PNG files, in subfolders too");
+  app.add_option("--pictures", folder, "What some of the screens show: JPEG and PNG files, in subfolders too")
+      ->check(CLI::ExistingDirectory);
   app.add_option("out", out, "File to write")->required();
   CLI11_PARSE(app, argc, argv);
   cv::setNumThreads(1);
 
   const std::vector<cv::Mat> pictures = folder.empty() ? std::vector<cv::Mat>{} : read_pictures(folder);
+  if (pictures.empty() && !folder.empty()) {
+    fmt::print(stderr, "no picture of 300 x 200 pixels or more in {}\n", folder);
+    return 1;
+  }
   std::ofstream file(out, std::ios::binary);
+  if (!file) {
+    fmt::print(stderr, "can't write {}\n", out);
+    return 1;
+  }
   for (int i = 0; i < rigs; ++i) {
     const std::uint64_t seed = from + static_cast<std::uint64_t>(i);
     try {
