@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <opencv2/core.hpp>
 #include <stdexcept>
@@ -83,6 +84,22 @@ TEST_F(OverviewTest, TellsWhatDiffersFromTheBackgroundWhereTheStripIs) {
         EXPECT_EQ(at(column, row, 3), 0) << column << " " << row;
       }
     }
+  }
+}
+
+// The edge is not level, so each rail passes through the middle of some cells.
+TEST_F(OverviewTest, TellsOfEveryRailOfTheStrip) {
+  for (int rail = 0; rail < BorderStrip::rails; ++rail) {
+    std::fill(distance_.begin(), distance_.end(), 0.0F);
+    std::fill_n(distance_.begin() + static_cast<std::ptrdiff_t>(rail) * layout_.columns, layout_.columns,
+                BackgroundStrip::far);
+    sample(cv::Mat::zeros(image.height_px, image.width_px, CV_8UC3));
+    int cells = 0;
+    for (int row = 0; row < overview_.rows(); ++row) {
+      for (int column = 0; column < overview_.columns(); ++column)
+        cells += at(column, row, 3) == 1 ? 1 : 0;
+    }
+    EXPECT_GT(cells, 0) << rail;
   }
 }
 
