@@ -82,14 +82,15 @@ double v_of(const BorderLine& level, double t, int columns) {
 Curve common_shape(const std::vector<Edgel>& edgels, int reach) {
   Curve best{0, 0, 0};
   double best_score = -1;
-  std::vector<double> votes(static_cast<std::size_t>(4 * reach + 41));
+  const std::ptrdiff_t middle = 2 * std::ptrdiff_t{reach} + 20;
+  std::vector<double> votes(static_cast<std::size_t>(2 * middle + 1));
   for (double bend = -10; bend <= 10; bend += 0.5) {
     for (double slope = -8; slope <= 8; slope += 0.5) {
       const Curve shape{0, slope, bend};
       std::fill(votes.begin(), votes.end(), 0.0);
       for (const Edgel& edgel : edgels) {
         const double level = edgel.v_px - shape.bent(edgel.t);
-        const auto bin = static_cast<std::ptrdiff_t>(std::lround(2 * level)) + 2 * reach + 20;
+        const auto bin = std::lround(2 * level) + middle;
         if (bin < 1 || bin + 1 >= static_cast<std::ptrdiff_t>(votes.size())) continue;
         const double weight = std::min(std::abs(edgel.step), 4.0);
         votes[static_cast<std::size_t>(bin)] += weight;

@@ -96,8 +96,7 @@ bool BorderMeasurer::learn(const cv::Mat& bgr) {
   return true;
 }
 
-double BorderMeasurer::correlation(const Column& column, int shift) const {
-  const auto first = static_cast<std::size_t>(search_px_ + shift);
+double BorderMeasurer::correlation(const Column& column, std::size_t first) const {
   const std::size_t n = column.learnt.size();
   double sa = 0, sb = 0, saa = 0, sbb = 0, sab = 0;
   for (std::size_t i = 0; i < n; ++i) {
@@ -116,8 +115,8 @@ const BorderShifts& BorderMeasurer::measure(const cv::Mat& bgr) {
   for (const Column& column : columns_) {
     if (column.learnt.empty()) continue;
     read_profile(bgr, column);
-    for (int shift = -search_px_; shift <= search_px_; ++shift)
-      likeness_[static_cast<std::size_t>(shift + search_px_)] = correlation(column, shift);
+    for (std::size_t first = 0; first < likeness_.size(); ++first)
+      likeness_[first] = correlation(column, first);
     const auto best = std::max_element(likeness_.begin(), likeness_.end());
     if (*best < least_correlation || best == likeness_.begin() || best + 1 == likeness_.end()) continue;
     const double before = *(best - 1), after = *(best + 1);

@@ -49,7 +49,8 @@ class BorderMeasurer {
 
   [[nodiscard]] bool fits(const cv::Mat& bgr) const;
   void read_profile(const cv::Mat& bgr, const Column& column);
-  [[nodiscard]] double correlation(const Column& column, int shift) const;
+  // Of what was learnt with the profile from its row `first` on: 0 is a shift of -search_px_.
+  [[nodiscard]] double correlation(const Column& column, std::size_t first) const;
 
   ImageSize image_;
   int towards_user_;  // rows' direction from the screen to the bezel: -1, in pictures upside down 1

@@ -148,6 +148,7 @@ void judge_accuracy(const RigCalibration& calibration, const CalibrationLimits& 
 
 CalibrationVerdict judge_calibration(const RigCalibration& calibration) {
   std::vector<ScreenPoint> dots;
+  dots.reserve(calibration.observations.touches.size());
   for (const PointObservation& touch : calibration.observations.touches)
     dots.push_back(touch.screen);
   return judge_calibration(calibration, dots);

@@ -46,9 +46,9 @@ template <typename Value>
 std::optional<Edge> steepest_fall(Value value, double scale) {
   constexpr int side = static_cast<int>(search_px / step_px);
   std::array<double, 2 * side + 1> fall{};
-  for (int i = -side; i <= side; ++i) {
-    const double d = i * step_px;
-    fall[static_cast<std::size_t>(i + side)] = value((d - slope_px) * scale) - value((d + slope_px) * scale);
+  for (std::size_t i = 0; i < fall.size(); ++i) {
+    const double d = (static_cast<double>(i) - side) * step_px;
+    fall[i] = value((d - slope_px) * scale) - value((d + slope_px) * scale);
   }
   const auto best = std::max_element(fall.begin(), fall.end());
   if (best == fall.begin() || best == fall.end() - 1 || *best <= 0) return std::nullopt;

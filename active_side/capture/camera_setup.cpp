@@ -66,11 +66,13 @@ ControlValues planned_controls(const CameraSetupSettings& settings, const std::v
 
 ControlValues controls_before(const ControlValues& planned, const std::vector<CameraControl>& controls) {
   ControlValues before;
-  for (const ControlValue& change : planned) {
-    const auto control = std::ranges::find(controls, change.id, &CameraControl::id);
-    if (control != controls.end()) before.push_back({control->id, control->value});
+  for (const bool automatic : {false, true}) {
+    for (const ControlValue& change : planned) {
+      const auto control = std::ranges::find(controls, change.id, &CameraControl::id);
+      if (control != controls.end() && is_automatic(change.id) == automatic)
+        before.push_back({control->id, control->value});
+    }
   }
-  std::ranges::stable_partition(before, [](const ControlValue& value) { return !is_automatic(value.id); });
   return before;
 }
 

@@ -75,12 +75,14 @@ Result<FingerSeparation> FingerSeparation::find(const cv::Mat& without, const cv
     return Error{"the screen's border does not lie in the camera's picture; calibrate, then tune"};
   }
   std::vector<cv::Vec3d> change;
+  change.reserve(static_cast<std::size_t>(with.cols));
   for (int column = 0; column < with.cols; ++column)
     change.push_back(column_mean(with, border, column) - column_mean(without, border, column));
   // What changed everywhere is the camera's doing.
   cv::Vec3d everywhere;
   for (int colour = 0; colour < 3; ++colour) {
     std::vector<double> values;
+    values.reserve(change.size());
     for (const cv::Vec3d& of_column : change)
       values.push_back(of_column[colour]);
     everywhere[colour] = median(std::move(values));
