@@ -74,6 +74,10 @@ std::string format_error_table(const EvalTouchReport& report) {
   for (const auto& [name, group] : groups_that_differ(groups))
     fmt::format_to(out, "{}\n", error_row(name, group));
   print_false_touches(out, *report.score);
+  for (const EvaluatedContact& contact : report.part.contacts) {
+    fmt::format_to(out, "contact {}: from frame {} {}\n", contact.id, contact.down,
+                   contact.up.empty() ? "on" : "until frame " + contact.up);
+  }
   if (report.part.dropped > 0) {
     fmt::format_to(out, "{} fingers lay too far outside the screen and were dropped\n", report.part.dropped);
   }

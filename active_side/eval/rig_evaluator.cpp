@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <opencv2/core/mat.hpp>
 #include <optional>
@@ -46,7 +47,7 @@ class Evaluation {
       if (is_recording) {
         const auto index = static_cast<Duration::rep>(i);
         const Timestamp time = part.times.empty() ? Timestamp{} + index * frame_interval : part.times[i];
-        found.points = tracked(fingers, time);
+        found.points = tracked(fingers, time, part.frames[i].name);
       } else {
         found.points = touching(fingers);
       }
@@ -82,9 +83,14 @@ class Evaluation {
     return places;
   }
 
-  std::vector<ScreenPoint> tracked(const FingerObservations& fingers, Timestamp time) {
+  std::vector<ScreenPoint> tracked(const FingerObservations& fingers, Timestamp time, const std::string& frame) {
     std::vector<ScreenPoint> places;
     for (const ContactState& state : tracker_.update(fingers, time)) {
+      if (state.phase == Phase::down) evaluated_.contacts.push_back({state.id, frame, ""});
+      if (state.phase == Phase::up) {
+        const auto begun = std::ranges::find(evaluated_.contacts, state.id, &EvaluatedContact::id);
+        if (begun != evaluated_.contacts.end()) begun->up = frame;
+      }
       const bool more_likely_touches = state.phase != Phase::up && state.touching >= 0.5;
       if (more_likely_touches && near_screen(state.screen, calibration_.screen)) places.push_back(state.screen);
     }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -37,10 +38,18 @@ struct EvaluatedRig {
 Result<EvaluatedRig> calibrate_rig(const RigDirectory& recording, const EvalAlgorithm& algorithm,
                                    const std::vector<int>& calibration);
 
+// From a contact's first frame to the first one in which it has ended.
+struct EvaluatedContact {
+  std::uint32_t id = 0;
+  std::string down;  // names of frames
+  std::string up;    // empty: it did not end
+};
+
 struct EvaluatedPart {
-  std::vector<FoundTouches> found;      // one a frame, in the part's order
-  std::vector<std::string> unreadable;  // pictures that could not be used, and why; they count as without a touch
-  std::size_t dropped = 0;              // fingers whose point lay too far outside the screen
+  std::vector<FoundTouches> found;         // one a frame, in the part's order
+  std::vector<std::string> unreadable;     // pictures that could not be used, and why; they count as without a touch
+  std::vector<EvaluatedContact> contacts;  // of a sequence, in the order of their ids
+  std::size_t dropped = 0;                 // fingers whose point lay too far outside the screen
 };
 
 // What is found in the pictures of a part by a new detector: each alone, but those of `sequence` with the tracker.

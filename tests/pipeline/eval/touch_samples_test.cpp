@@ -239,6 +239,21 @@ TEST_P(TouchSamples, HoldASlidingFingerThatIsFound) {
   EXPECT_GE(near, 9U) << format_error_table(report);
 }
 
+TEST_P(TouchSamples, HoldOneContactThatBeginsAndEndsWithinAFrameOfTheTruth) {
+  for (const char* name : {"rig1", "rig2"}) {
+    if (open_rig_directory(GetParam() / name)->part("sequence") == nullptr) continue;
+    EvalTouchOptions chosen = options(name, "sequence");
+    chosen.algorithm = {};
+    const EvalTouchReport report = eval(chosen);
+    const auto& touches = report.score->touches;
+    ASSERT_EQ(report.part.contacts.size(), 1U) << format_error_table(report);
+    const EvaluatedContact& contact = report.part.contacts.front();
+    EXPECT_EQ(contact.id, 1U);
+    EXPECT_NEAR(std::stoi(contact.down), std::stoi(touches.front().frame), 1) << name;
+    EXPECT_NEAR(std::stoi(contact.up), std::stoi(touches.back().frame) + 1, 1) << name;
+  }
+}
+
 TEST_P(TouchSamples, HoldNoFingerWhereNothingCrossesTheBorder) {
   for (const char* name : {"rig1", "rig2"}) {
     const EvalTouchReport report = eval(options(name, "frames"));

@@ -66,7 +66,7 @@ class ErrorTable : public testing::Test {
              rig.screen,
              {500, 0},
              ThesisCalibration{{first, second}, ThesisTouchModel::solve(rig.screen, first, second).value()}},
-            {{{"1", {}}}, {}, 0},
+            {{{"1", {}}}, {}, {{7, "008", "018"}, {8, "020", ""}}, 0},
             std::move(score),
             {}};
   }
@@ -86,6 +86,7 @@ TEST_F(ErrorTable, ShowsFailuresErrorsAndFalseTouches) {
   EXPECT_THAT(table, ContainsRegex("tone V +2 +1 +1 +0 +- +- .*1/1"));
   EXPECT_THAT(table, ContainsRegex("screen chat +2 +0 +0 +2"));
   EXPECT_THAT(table, HasSubstr("hover 1 of 1 frames, nohand 0 of 1 frames"));
+  EXPECT_THAT(table, HasSubstr("contact 7: from frame 008 until frame 018\ncontact 8: from frame 020 on\n"));
 }
 
 TEST_F(ErrorTable, SaysThatThereIsNoTruth) {
