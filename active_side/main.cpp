@@ -9,6 +9,8 @@
 
 namespace {
 
+using telehug::ExitCode;
+
 constexpr const char* examples = R"(
 Examples:
   telehug-active calibrate --width-mm 380 --height-mm 300
@@ -21,10 +23,7 @@ Examples:
 Exit codes: 0 ok, 1 fault of telehug, 2 wrong command line, 3 faults in the configuration, 4 a camera, picture or
   recording can't be used, 10 another telehug-active runs, 13 DDS can't be set up.)";
 
-}  // namespace
-
-int main(int argc, char** argv) {
-  using telehug::ExitCode;
+ExitCode parse_and_run(int argc, char** argv) {
   // A second thread makes nothing here faster and would compete with the touch path.
   cv::setNumThreads(1);
   ExitCode result = ExitCode::ok;
@@ -43,9 +42,17 @@ int main(int argc, char** argv) {
   } catch (const CLI::ParseError& problem) {
     // --help and --version come this way, too, with code 0.
     result = app.exit(problem) == 0 ? ExitCode::ok : ExitCode::usage;
+  }
+  return result;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return telehug::to_int(parse_and_run(argc, argv));
   } catch (const std::exception& problem) {
     (void)std::fprintf(stderr, "telehug-active: %s\n", problem.what());
-    result = ExitCode::internal;
+    return telehug::to_int(ExitCode::internal);
   }
-  return telehug::to_int(result);
 }

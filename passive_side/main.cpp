@@ -60,9 +60,7 @@ ExitCode run(const Options& options) {
   }
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
+ExitCode parse_and_run(int argc, char** argv) {
   ExitCode result = ExitCode::ok;
   CLI::App app("Lets the jacket on this PC be touched from the other side, within its limits.", "telehug-passive");
   app.footer(examples);
@@ -81,8 +79,17 @@ int main(int argc, char** argv) {
   } catch (const CLI::ParseError& problem) {
     // --help and --version come this way, too, with code 0.
     result = app.exit(problem) == 0 ? ExitCode::ok : ExitCode::usage;
-  } catch (const std::exception& problem) {
-    result = fail(ExitCode::internal, problem.what());
   }
-  return to_int(result);
+  return result;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return to_int(parse_and_run(argc, argv));
+  } catch (const std::exception& problem) {
+    (void)std::fprintf(stderr, "telehug-passive: %s\n", problem.what());
+    return to_int(ExitCode::internal);
+  }
 }

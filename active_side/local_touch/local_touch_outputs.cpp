@@ -62,6 +62,7 @@ void LocalTouchOutputs::close() {
 
 std::vector<LocalTouchState> LocalTouchOutputs::states() const {
   std::vector<LocalTouchState> states;
+  states.reserve(outputs_.size());
   for (const Output& output : outputs_)
     states.push_back({output.output->name(), output.open, output.problem});
   return states;

@@ -182,7 +182,8 @@ void ContactTracker::learn_width(Track& track) {
   constexpr int most_frames = 12;
   constexpr double gain = 0.08;
   if (options_.every_finger_touches || track.filter.touching() < 0.95 || !track.filter.width()) return;
-  if (++track.widths_learned < lasts_frames || track.widths_learned > most_frames) return;
+  ++track.widths_learned;
+  if (track.widths_learned < lasts_frames || track.widths_learned > most_frames) return;
   known_width_.log_mm += gain * (*track.filter.width() - known_width_.log_mm);
   known_width_.sd += gain * (options_.filter.known_width - known_width_.sd);
 }

@@ -5,6 +5,8 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cstdio>
+#include <exception>
 #include <filesystem>
 #include <fstream>
 #include <opencv2/core/utility.hpp>
@@ -35,9 +37,7 @@ std::vector<cv::Mat> read_pictures(const fs::path& folder) {
   return pictures;
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
+int write_examples(int argc, char** argv) {
   CLI::App app("Writes examples for the finger nets");
   std::uint64_t from = 1'000'000;
   int rigs = 10;
@@ -78,4 +78,15 @@ int main(int argc, char** argv) {
   file.close();
   if (!file) fmt::print(stderr, "can't write {}\n", out);
   return file ? 0 : 1;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return write_examples(argc, argv);
+  } catch (const std::exception& problem) {
+    (void)std::fprintf(stderr, "telehug-training-frames: %s\n", problem.what());
+    return 1;
+  }
 }

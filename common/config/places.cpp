@@ -42,7 +42,7 @@ std::filesystem::path camera_before_file(const RigConfig& config) {
 std::filesystem::path jacket_profile_file(const JacketConfig& config) {
   const std::filesystem::path installed = std::filesystem::path(TELEHUG_DATA_DIR) / "jackets";
   if (config.profile.empty()) return installed / "duemilanove-16.toml";
-  const std::filesystem::path given = config.profile;
+  std::filesystem::path given = config.profile;
   std::error_code ignored;
   if (given.is_absolute() || std::filesystem::exists(given, ignored)) return given;
   return std::filesystem::exists(installed / given, ignored) ? installed / given : given;

@@ -7,6 +7,8 @@
 
 namespace {
 
+using telehug::ExitCode;
+
 constexpr const char* examples = R"(
 Examples:
   telehug status                      how the daemons on this PC are
@@ -20,10 +22,7 @@ Exit codes: 0 ok, 1 fault of telehug, 2 wrong command line, 5 no daemon is runni
   7 not allowed to use the socket, 8 the daemon does not answer properly, 9 the daemon refused, 11 stopped (--check),
   12 a side can't work (--check).)";
 
-}  // namespace
-
-int main(int argc, char** argv) {
-  using telehug::ExitCode;
+ExitCode parse_and_run(int argc, char** argv) {
   ExitCode result = ExitCode::ok;
   CLI::App app("Looks after the telehug daemons on this PC, through their local sockets; needs no network.", "telehug");
   app.footer(examples);
@@ -38,9 +37,17 @@ int main(int argc, char** argv) {
   } catch (const CLI::ParseError& problem) {
     // --help comes this way, too, with code 0.
     result = app.exit(problem) == 0 ? ExitCode::ok : ExitCode::usage;
+  }
+  return result;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return telehug::to_int(parse_and_run(argc, argv));
   } catch (const std::exception& problem) {
     (void)std::fprintf(stderr, "telehug: %s\n", problem.what());
-    result = ExitCode::internal;
+    return telehug::to_int(ExitCode::internal);
   }
-  return telehug::to_int(result);
 }

@@ -38,7 +38,7 @@ std::string rest_of(const Json& json, std::initializer_list<std::string_view> sh
   return text;
 }
 
-std::string joined(std::string left, const std::string& separator, const std::string& right) {
+std::string joined(const std::string& left, const std::string& separator, const std::string& right) {
   if (left.empty() || right.empty()) return left + right;
   return left + separator + right;
 }
@@ -135,7 +135,7 @@ std::string status_text(const Json& status) {
   }
   if (status.is_object()) {
     for (const auto& [name, value] : status.items()) {
-      const auto is = [&name = name](const char* known) { return name == known; };
+      const auto is = [&key = name](const char* known) { return key == known; };
       if (std::any_of(things.begin(), things.end(), is) || std::any_of(placed.begin(), placed.end(), is)) continue;
       text += thing_text(plain_text(name), value);
     }

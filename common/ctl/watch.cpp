@@ -48,6 +48,7 @@ class Watch {
  private:
   static void wait(const Daemons& daemons) {
     std::vector<pollfd> descriptors;
+    descriptors.reserve(daemons.found.size());
     for (const Daemon& daemon : daemons.found)
       descriptors.push_back({daemon.client.fd(), POLLIN, 0});
     poll(descriptors.data(), descriptors.size(), -1);
