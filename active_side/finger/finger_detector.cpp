@@ -100,6 +100,7 @@ FingerDetector::Look FingerDetector::look_once(const cv::Mat& bgr, const ImagePo
   place.columns = TipNet::columns;
   place.rows = TipNet::rows;
   place.step_px = px_per_mm(near) / patch_px_per_mm;
+  place.row_step_px = place.step_px / patch_rows_per_column;
   place.mirrored = mirrored;
   place.middle = near;
   const ImagePoint beside = place.picture_point(TipNet::tip_column, TipNet::tip_row);

@@ -56,7 +56,7 @@ class FingerDetector {
   // What the tip net says of a patch, and where that is in the picture.
   struct Look {
     ImagePoint tip;
-    double step_px = 1;  // picture pixels per patch pixel
+    double step_px = 1;  // picture pixels per patch column
     TipLook seen;
   };
 

@@ -31,4 +31,17 @@ void SeparableLayer::run() {
     sum[i] += input[i];
 }
 
+SeparableStack::SeparableStack(const Tensors& tensors, const std::string& name, int first,
+                               std::initializer_list<SeparableShape> shapes, const FeatureMap& input) {
+  for (const SeparableShape& shape : shapes) {
+    const FeatureMap& before = layers_.empty() ? input : layers_.back().result();
+    layers_.emplace_back(tensors, name + "." + std::to_string(first++), shape, before);
+  }
+}
+
+void SeparableStack::run() {
+  for (SeparableLayer& layer : layers_)
+    layer.run();
+}
+
 }  // namespace telehug

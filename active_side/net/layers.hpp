@@ -3,6 +3,8 @@
 // What the nets consist of; active_side/training/nets.py is the same in Python.
 #pragma once
 
+#include <deque>
+#include <initializer_list>
 #include <string>
 
 #include "net/convolution.hpp"
@@ -55,6 +57,19 @@ class SeparableLayer {
   FeatureMap between_;
   FeatureMap result_;
   bool residual_;
+};
+
+// Separable layers, one after the other: NAME.FIRST, the next one, and so on.
+class SeparableStack {
+ public:
+  SeparableStack(const Tensors& tensors, const std::string& name, int first,
+                 std::initializer_list<SeparableShape> shapes, const FeatureMap& input);
+
+  void run();
+  [[nodiscard]] const FeatureMap& result() const noexcept { return layers_.back().result(); }
+
+ private:
+  std::deque<SeparableLayer> layers_;  // which stay where they are
 };
 
 }  // namespace telehug

@@ -2,7 +2,6 @@
 #include "net/overview_net.hpp"
 
 #include <algorithm>
-#include <array>
 
 #include "net/layers.hpp"
 #include "net/weights.hpp"
@@ -13,19 +12,19 @@ struct OverviewNet::Layers {
   Layers(const Tensors& tensors, int rows, int columns)
       : cells(rows, columns, channels),
         first(tensors, "first", {channels, 12, 3, 2, false, true}, cells),
-        halved(tensors, "body.0", {12, 32, 3, 2, false}, first.result()),
-        body{{{tensors, "body.1", {32, 32, 5, 1, true}, halved.result()},
-              {tensors, "body.2", {32, 32, 5, 1, true}, body[0].result()},
-              {tensors, "body.3", {32, 32, 5, 1, true}, body[1].result()},
-              {tensors, "body.4", {32, 32, 5, 1, true}, body[2].result()}}},
-        hidden(tensors, "hidden", {32, 32, 1, 1, false, true}, body.back().result()),
+        body(tensors, "body", 0,
+             {{12, 32, 3, 2, false},
+              {32, 32, 5, 1, true},
+              {32, 32, 5, 1, true},
+              {32, 32, 5, 1, true},
+              {32, 32, 5, 1, true}},
+             first.result()),
+        hidden(tensors, "hidden", {32, 32, 1, 1, false, true}, body.result()),
         logits(tensors, "logits", {32, 4, 1, 1, false, false}, hidden.result()) {}
 
   void run() {
     first.run();
-    halved.run();
-    for (SeparableLayer& layer : body)
-      layer.run();
+    body.run();
     hidden.run();
     logits.run();
   }
@@ -33,7 +32,9 @@ struct OverviewNet::Layers {
   // Four values at each place are those of two rows and two columns.
   [[nodiscard]] float logit(int row, int column) const {
     const FeatureMap& map = logits.result();
-    return map.values[static_cast<std::size_t>((row / 2 * map.columns + column / 2) * 4 + row % 2 * 2 + column % 2)];
+    const auto place = static_cast<std::size_t>(row / 2) * static_cast<std::size_t>(map.columns) +
+                       static_cast<std::size_t>(column / 2);
+    return map.values[4 * place + static_cast<std::size_t>(row % 2 * 2) + static_cast<std::size_t>(column % 2)];
   }
   [[nodiscard]] bool is_peak(int row, int column, float value) const {
     for (int r = std::max(0, row - 1); r <= std::min(row + 1, 2 * logits.result().rows - 1); ++r) {
@@ -64,8 +65,7 @@ struct OverviewNet::Layers {
 
   FeatureMap cells;
   Layer first;
-  SeparableLayer halved;
-  std::array<SeparableLayer, 4> body;
+  SeparableStack body;
   Layer hidden;
   Layer logits;
 };

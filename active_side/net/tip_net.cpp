@@ -46,34 +46,35 @@ struct TipNet::Layers {
   explicit Layers(const Tensors& tensors)
       : patch(rows, columns, 3),
         first(tensors, "first", {3, 16, 3, 2, false, true}, patch),
-        body{{{tensors, "body.0", {16, 32, 3, 2, false}, first.result()},
-              {tensors, "body.1", {32, body_channels, 5, 1, false}, body[0].result()},
-              {tensors, "body.2", {body_channels, body_channels, 5, 1, true}, body[1].result()},
-              {tensors, "body.3", {body_channels, body_channels, 5, 1, true}, body[2].result()}}},
-        heat_hidden(tensors, "heat_hidden", {body_channels, 32, 1, 1, false, true}, body.back().result()),
+        body(tensors, "body", 0,
+             {{16, 32, 3, 2, false},
+              {32, body_channels, 5, 1, false},
+              {body_channels, body_channels, 5, 1, true},
+              {body_channels, body_channels, 5, 1, true}},
+             first.result()),
+        heat_hidden(tensors, "heat_hidden", {body_channels, 32, 1, 1, false, true}, body.result()),
         heat(tensors, "heat", {32, 4, 1, 1, false, false}, heat_hidden.result()),
-        whole{{{tensors, "whole.0", {body_channels, whole_channels, 3, 2, false}, body.back().result()},
-               {tensors, "whole.1", {whole_channels, whole_channels, 5, 1, true}, whole[0].result()}}},
+        whole(tensors, "whole", 0,
+              {{body_channels, whole_channels, 3, 2, false}, {whole_channels, whole_channels, 5, 1, true}},
+              body.result()),
         hidden(tensors, "judge_hidden", judge_inputs, judge_hidden),
         judge(tensors, "judge", judge_hidden, outputs),
         share(heat.result().size()) {}
 
   void run() {
     first.run();
-    for (SeparableLayer& layer : body)
-      layer.run();
+    body.run();
     heat_hidden.run();
     heat.run();
-    for (SeparableLayer& layer : whole)
-      layer.run();
+    whole.run();
   }
 
   FeatureMap patch;
   Layer first;
-  std::array<SeparableLayer, 4> body;
+  SeparableStack body;
   Layer heat_hidden;
   Layer heat;
-  std::array<SeparableLayer, 2> whole;
+  SeparableStack whole;
   Dense hidden;
   Dense judge;
   std::vector<float> share;  // of the heat, four values for each place of the body's map
@@ -101,7 +102,7 @@ TipLook TipNet::look(double u, double v) {
 
   // The mean place (Sun et al.: Integral Human Pose Regression, 2018), and the body's features there.
   std::array<float, judge_inputs> features{};
-  const FeatureMap& body = layers.body.back().result();
+  const FeatureMap& body = layers.body.result();
   double column = 0;
   double row = 0;
   const std::size_t places = heat.size() / 4;
@@ -109,16 +110,16 @@ TipLook TipNet::look(double u, double v) {
     const float* const four = layers.share.data() + 4 * i;
     const float here = (four[0] + four[1] + four[2] + four[3]) * scale;
     if (here < 1e-6F) continue;
-    const auto down = static_cast<double>(i / static_cast<std::size_t>(heat.columns));
-    const auto across = static_cast<double>(i % static_cast<std::size_t>(heat.columns));
-    column += here * (4 * across + 0.5) + 2.0 * scale * (four[1] + four[3]);
-    row += here * (4 * down + 0.5) + 2.0 * scale * (four[2] + four[3]);
+    const std::size_t down = i / static_cast<std::size_t>(heat.columns);
+    const std::size_t across = i % static_cast<std::size_t>(heat.columns);
+    column += here * (4 * static_cast<double>(across) + 0.5) + 2.0 * scale * (four[1] + four[3]);
+    row += here * (4 * static_cast<double>(down) + 0.5) + 2.0 * scale * (four[2] + four[3]);
     const float* const at = body.values.data() + i * body_channels;
     for (std::size_t k = 0; k < body_channels; ++k)
       features[whole_channels + k] += here * at[k];
   }
-  const FeatureMap& whole = layers.whole.back().result();
-  const auto count = static_cast<std::size_t>(whole.rows * whole.columns);
+  const FeatureMap& whole = layers.whole.result();
+  const auto count = static_cast<std::size_t>(whole.rows) * static_cast<std::size_t>(whole.columns);
   for (std::size_t i = 0; i < count; ++i) {
     for (std::size_t k = 0; k < whole_channels; ++k)
       features[k] += whole.values[i * whole_channels + k];

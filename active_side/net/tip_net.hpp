@@ -14,7 +14,7 @@ struct TipLook {
   double present_logit = 0;   // log odds that a finger ends here
   double touches_logit = 0;   // that it touches
   double hover_mm = 0;        // how far it seems to be from the screen
-  double width = 0;           // of the finger, in patch pixels
+  double width = 0;           // of the finger, in patch columns
   double spread_columns = 0;  // mean absolute errors to be expected
   double spread_rows = 0;
 };
@@ -24,7 +24,7 @@ class TipNet {
   static constexpr int rows = 80;
   static constexpr int columns = 64;
   // A patch is best laid so that the tip is about here.
-  static constexpr int tip_row = 32;
+  static constexpr int tip_row = 44;
   static constexpr int tip_column = 32;
 
   TipNet();

@@ -61,8 +61,8 @@ ExampleWriter::ExampleWriter(std::ofstream& file, std::uint32_t rig, const RigCa
       net_(overview_.rows(), overview_.columns()) {}
 
 void ExampleWriter::write_patch(const RenderedFrame& frame, const ImagePoint& middle, const TipTruth* tip) {
-  PatchPlace place{middle, px_per_mm_at(camera_, middle).value_or(patch_px_per_mm) / patch_px_per_mm,
-                   example_patch_columns, example_patch_rows};
+  const double step_px = px_per_mm_at(camera_, middle).value_or(patch_px_per_mm) / patch_px_per_mm;
+  const PatchPlace place{middle, step_px, step_px / patch_rows_per_column, example_patch_columns, example_patch_rows};
   std::vector<float> values(static_cast<std::size_t>(place.columns * place.rows) * 3);
   sample_patch(frame.bgr, place, values.data());
   const ImagePoint corner = place.picture_point(0, 0);
@@ -70,8 +70,9 @@ void ExampleWriter::write_patch(const RenderedFrame& frame, const ImagePoint& mi
   const double u = (middle.u_px - half_width) / half_width;
   const double v = (middle.v_px - 0.5 * frame.bgr.rows) / half_width;
   if (tip != nullptr) {
-    put_floats(file_, {(tip->place.u_px - corner.u_px) / place.step_px, (tip->place.v_px - corner.v_px) / place.step_px,
-                       1, tip->touches ? 1.0 : 0.0, tip->hover_mm, tip->width_px / place.step_px, u, v});
+    put_floats(file_,
+               {(tip->place.u_px - corner.u_px) / place.step_px, (tip->place.v_px - corner.v_px) / place.row_step_px, 1,
+                tip->touches ? 1.0 : 0.0, tip->hover_mm, tip->width_px / place.step_px, u, v});
   } else {
     put_floats(file_, {0, 0, 0, 0, 0, 0, u, v});
   }

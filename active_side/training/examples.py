@@ -8,7 +8,7 @@ from torch.nn import functional as F
 
 CANVAS_COLUMNS, CANVAS_ROWS = 128, 144
 PATCH_COLUMNS, PATCH_ROWS = 64, 80
-TIP_COLUMN, TIP_ROW = 32, 32  # where a patch is laid so that the tip is there
+TIP_COLUMN, TIP_ROW = 32, 44  # where a patch is laid so that the tip is there
 EDGE_REACH_CELLS = 16
 
 
@@ -133,14 +133,14 @@ def overview_batch(overviews, picks, rng, vary, columns=160, rows=72):
     return x, torch.from_numpy(target), torch.from_numpy(weight)
 
 
-def tip_batch(patches, picks, rng, vary, jitter=14.0):
+def tip_batch(patches, picks, rng, vary):
     """Inputs n, 3, rows, columns; places; numbers (column and row of the tip in the patch, present, touches, hover_mm,
     width)."""
     n = len(picks)
     pixels = np.stack([patches[k][2] for k in picks])
     numbers = np.stack([patches[k][1] for k in picks]).astype(np.float32)
-    # Most first looks are less than 9 px off, second ones less than 3.
-    reach = rng.choice([3.0, 9.0, jitter], (n, 1), p=[0.25, 0.5, 0.25])
+    # Columns and rows: most first looks are less than 8 and 12 off, second ones less than 3 and 4.
+    reach = rng.choice([(3, 4), (8, 12), (14, 20)], n, p=[0.4, 0.4, 0.2])
     shift = (reach * rng.uniform(-1, 1, (n, 2))).astype(np.float32)
     present = numbers[:, 2] > 0.5
     middle = np.where(present[:, None], numbers[:, :2], [CANVAS_COLUMNS / 2, CANVAS_ROWS / 2 - 8])

@@ -56,7 +56,7 @@ def tip_report(net, patches, rng):
     found = []
     for start in range(0, len(patches), 256):
         picks = range(start, min(start + 256, len(patches)))
-        x, place, numbers = examples.tip_batch(patches, picks, rng, False, 6.0)
+        x, place, numbers = examples.tip_batch(patches, picks, rng, False)
         _, column, row, judged = net(x, place)
         found.append(torch.cat([(column - numbers[:, 0]).abs()[:, None], (row - numbers[:, 1]).abs()[:, None],
                                 numbers[:, 2:6], judged], 1))

@@ -59,7 +59,7 @@ class StagedDetector {
   void look_at(const cv::Mat& bgr, const ImagePoint& tip, StageTimes& ms) {
     Stopwatch watch;
     const double step_px = px_per_mm_at(camera_, tip).value_or(1) / patch_px_per_mm;
-    sample_patch(bgr, {tip, step_px, TipNet::columns, TipNet::rows}, tip_net_.patch());
+    sample_patch(bgr, {tip, step_px, step_px / patch_rows_per_column, TipNet::columns, TipNet::rows}, tip_net_.patch());
     ms[4] += watch.lap_ms();
     row_sum_ += tip_net_.look(0, 0).row;
     ms[5] += watch.lap_ms();

@@ -30,7 +30,7 @@ std::vector<float> patch_of(const cv::Mat& bgr, const PatchPlace& place) {
 
 TEST(TipPatch, IsInterpolatedAtItsPlace) {
   for (const auto& [step, mirrored] : {std::pair{0.4, false}, {1.0, false}, {1.7, false}, {0.4, true}, {1.7, true}}) {
-    const PatchPlace place{{40.3, 30.7}, step, columns, rows, mirrored};
+    const PatchPlace place{{40.3, 30.7}, step, step / 1.5, columns, rows, mirrored};
     const auto values = patch_of(ramps(), place);
     for (int row = 0; row < rows; ++row) {
       for (int column = 0; column < columns; ++column) {
@@ -45,14 +45,15 @@ TEST(TipPatch, IsInterpolatedAtItsPlace) {
 }
 
 TEST(TipPatch, IsLaidAboutItsMiddle) {
-  const PatchPlace place{{40, 30}, 2, columns, rows};
+  const PatchPlace place{{40, 30}, 2, 1.25, columns, rows};
   EXPECT_NEAR(place.picture_point(5.5, 4).u_px, 40, 1e-9);
   EXPECT_NEAR(place.picture_point(5.5, 4).v_px, 30, 1e-9);
   EXPECT_NEAR(place.picture_point(6.5, 4).u_px, 42, 1e-9);
+  EXPECT_NEAR(place.picture_point(5.5, 6).v_px, 32.5, 1e-9);
 }
 
 TEST(TipPatch, RunsFromThePicturesRightToItsLeftIfMirrored) {
-  const PatchPlace plain{{40.3, 30}, 2, columns, rows};
+  const PatchPlace plain{{40.3, 30}, 2, 2, columns, rows};
   PatchPlace mirrored = plain;
   mirrored.mirrored = true;
   for (const double column : {0.0, 3.2, 11.0}) {
@@ -65,7 +66,7 @@ TEST(TipPatch, MayBeWiderThanTheLinesThatAreMixedAtOnce) {
   cv::Mat bgr(40, 1000, CV_8UC3);
   cv::randu(bgr, 0, 256);
   for (const bool mirrored : {false, true}) {
-    const PatchPlace place{{500, 20}, 80, columns, 1, mirrored};
+    const PatchPlace place{{500, 20}, 80, 80, columns, 1, mirrored};
     const auto values = patch_of(bgr, place);
     for (int column = 0; column < columns; ++column) {
       const auto u = static_cast<int>(place.picture_point(column, 0).u_px);
@@ -78,7 +79,7 @@ TEST(TipPatch, GoesOnBeyondThePictureAsItEnds) {
   const cv::Mat bgr = ramps();
   for (const ImagePoint middle : {ImagePoint{-500, -500}, {5000, 5000}, {-3, 61}, {80, -2}}) {
     for (const bool mirrored : {false, true}) {
-      const PatchPlace place{middle, 1, columns, rows, mirrored};
+      const PatchPlace place{middle, 1, 1, columns, rows, mirrored};
       const auto values = patch_of(bgr, place);
       const ImagePoint at = place.picture_point(0, 0);
       EXPECT_NEAR((values[0] + 1) * 127.5, 3 * std::clamp(at.u_px, 0.0, 79.0), 1e-3);
