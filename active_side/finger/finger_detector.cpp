@@ -36,13 +36,14 @@ TipLook mean(const TipLook& a, const TipLook& b) {
 
 MirrorEvidence evidence(const TipLook& look) {
   // A touch that is not seen is worse than one that motion still tells from hovering.
-  constexpr double surely_touching = 0.7;
-  constexpr double surely_hovering = 0.8;
-  const double touching = 1 / (1 + std::exp(-look.touches_logit));
-  MirrorEvidence said;
-  if (touching >= surely_touching) said = {MirrorState::touching, 0, touching};
-  if (1 - touching >= surely_hovering) said = {MirrorState::hovering, look.hover_mm, 1 - touching};
-  return said;
+  constexpr double surely_hovering = -1.4;
+  // Of the fingers that it learned on, three touch for one that hovers and looks as if it touched.
+  constexpr double log_odds_learned = 1;
+  constexpr double most = 4;  // of 400 rendered hovering fingers that the net is surer about
+  const double log_ratio = std::clamp(look.touches_logit - log_odds_learned, -most, most);
+  if (look.touches_logit <= surely_hovering) return {MirrorState::hovering, look.hover_mm, -log_ratio};
+  if (log_ratio > 0) return {MirrorState::touching, 0, log_ratio};
+  return {};
 }
 
 }  // namespace

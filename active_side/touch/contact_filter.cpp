@@ -70,7 +70,9 @@ void ContactFilter::came_over_border(double seconds) {
   const double speed = std::log(std::max(1.0, border_mm / y_mm)) / seconds;
   if (speed * camera_.height_mm > fastest_mm_s) return;
   log_r_speed_ = -std::max(speed, slowest_mm_s / camera_.height_mm);
-  belief_ = {0.96, 0.03, 0.01};
+  // It may have landed since, near the edge; but what nobody saw coming is to be believed only if the mirror is sure.
+  const double landed = 0.25 * std::min(1.0, options_.land_rate * seconds);
+  belief_ = {0.97 * (1 - landed), 0.03, 0.97 * landed};
 }
 
 double ContactFilter::noise_mm(const FingerObservation& finger) const {
@@ -218,7 +220,7 @@ std::optional<double> ContactFilter::width() const noexcept {
 
 void ContactFilter::weigh_mirror(const MirrorEvidence& mirror) {
   if (mirror.state == MirrorState::unknown) return;
-  const double unlikely = std::exp(-options_.mirror_log_ratio * std::clamp(mirror.confidence, 0.0, 1.0));
+  const double unlikely = std::exp(-std::clamp(mirror.log_ratio, 0.0, options_.most_mirror_log_ratio));
   const bool touching = mirror.state == MirrorState::touching;
   belief_[touching_state] *= touching ? 1 : unlikely;
   belief_[moving_state] *= touching ? unlikely : 1;

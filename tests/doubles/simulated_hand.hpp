@@ -159,8 +159,8 @@ class SimulatedHand {
     if (height_mm > 30 || chance(0.1)) return {};
     bool touching = height_mm < 1.5;
     if (chance(sight.wrong_mirror)) touching = !touching;
-    const double confidence = between(0.6, 1);
-    return {touching ? MirrorState::touching : MirrorState::hovering, touching ? 0 : height_mm, confidence};
+    const double log_ratio = between(1.4, 2.3);
+    return {touching ? MirrorState::touching : MirrorState::hovering, touching ? 0 : height_mm, log_ratio};
   }
 
   std::mt19937 random_;

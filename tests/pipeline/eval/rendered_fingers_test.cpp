@@ -199,6 +199,7 @@ TEST(RenderedFingers, AreNotFoundWhereNobodyIsOrNobodyCrossesTheBorder) {
 TEST(RenderedFingers, ThatHoverOverAMirrorAreSeenToHover) {
   int hovering = 0;
   int taken_for_touch = 0;
+  int surely_wrong = 0;
   int touching = 0;
   int taken_for_hover = 0;
   for (std::uint64_t seed = first_rig; seed < first_rig + 3 * rigs; ++seed) {
@@ -208,8 +209,10 @@ TEST(RenderedFingers, ThatHoverOverAMirrorAreSeenToHover) {
       const RandomFrame drawn = rig.draw(FrameKind::hover, seed * 100 + frame);
       if (drawn.hands.front().finger.hover_mm >= 10) {
         ++hovering;
-        for (const Finger& finger : rig.detect())
+        for (const Finger& finger : rig.detect()) {
           taken_for_touch += finger.mirror.state != MirrorState::hovering ? 1 : 0;
+          surely_wrong += finger.mirror.state == MirrorState::touching && finger.mirror.log_ratio > 3 ? 1 : 0;
+        }
       }
       rig.draw(FrameKind::touch, seed * 100 + frame);
       for (const Finger& finger : rig.detect()) {
@@ -220,6 +223,7 @@ TEST(RenderedFingers, ThatHoverOverAMirrorAreSeenToHover) {
   }
   ASSERT_GT(hovering, 30);
   EXPECT_LE(taken_for_touch, 0.08 * hovering) << "of " << hovering;
+  EXPECT_LE(surely_wrong, 1) << "of " << hovering;
   EXPECT_LE(taken_for_hover, 0.05 * touching) << "of " << touching;
 }
 

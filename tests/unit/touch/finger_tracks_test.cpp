@@ -31,7 +31,7 @@ FingerObservation seen_at(double x_mm, double y_mm, double z_mm = 0, MirrorState
       {camera.foot.x_mm + nearer * (x_mm - camera.foot.x_mm), camera.foot.y_mm + nearer * (y_mm - camera.foot.y_mm)},
       15 * nearer,
       1000 / (y_mm - camera.foot.y_mm),
-      {mirror, z_mm, 1},
+      {mirror, z_mm, 2.3},
       1};
 }
 
@@ -152,6 +152,20 @@ TEST(FingerTracks, EndAContactThatIsGoneForLongInADisturbedScene) {
   });
   EXPECT_EQ(played.downs, 1);
   EXPECT_EQ(played.ups, 1);
+}
+
+TEST(FingerTracks, TouchWhenTheyAppearIfTheMirrorIsSure) {
+  for (const auto& [log_ratio, downs] : {std::pair{4.0, 1}, {1.5, 0}}) {
+    ContactTracker fingers = tracker();
+    const auto played = play(fingers, -2, 1, [log_ratio = log_ratio](int i) {
+      Fingers frame{{}, Scene::steady};
+      if (i < 0) return frame;
+      frame.first.push_back(seen_at(150, 280, 0, MirrorState::touching));
+      frame.first.back().mirror.log_ratio = log_ratio;
+      return frame;
+    });
+    EXPECT_EQ(played.downs, downs) << log_ratio;
+  }
 }
 
 // A flashing screen makes detectors see fingers where there are none, here and there, with any evidence. Of five such
