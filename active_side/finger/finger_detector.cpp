@@ -58,9 +58,10 @@ FingerDetector::FingerDetector(const BorderCurve& border, ImageSize image, const
       background_(layout_, background.value_or(BorderStrip(layout_))),
       learner_(layout_, background.has_value()),
       overview_(border, layout_, px_per_mm_at_border(camera, border, image)),
-      narrow_net_(overview_.rows(), overview_.narrow_columns()),
-      wide_net_(overview_.rows(), overview_.wide_columns()),
-      is_finger_(static_cast<std::size_t>(layout_.columns), false) {}
+      is_finger_(static_cast<std::size_t>(layout_.columns), false) {
+  for (const int columns : overview_.tile_columns())
+    overview_nets_.emplace_back(overview_.rows(), columns);
+}
 
 double FingerDetector::px_per_mm(const ImagePoint& place) const {
   return px_per_mm_at(camera_, image_, place);
@@ -76,8 +77,8 @@ const Fingers& FingerDetector::detect(const cv::Mat& bgr) {
   strip_.sample(bgr, layout_);
   if (!learner_.knows()) return fingers_;
   for (const Overview::Tile& tile : overview_.tiles(background_.distance(strip_))) {
-    OverviewNet& net = tile.columns == overview_.narrow_columns() ? narrow_net_ : wide_net_;
-    overview_.sample(bgr, tile.first_column, tile.columns, net.cells());
+    OverviewNet& net = overview_nets_[tile.width];
+    overview_.sample(bgr, tile.first_column, overview_.tile_columns()[tile.width], net.cells());
     for (const OverviewNet::Tip& tip : net.find(least_overview_logit))
       add_finger(bgr, overview_.picture_point(tile.first_column + tip.column, tip.row));
   }

@@ -74,8 +74,7 @@ class FingerDetector {
   BackgroundStrip background_;
   BackgroundLearner learner_;
   Overview overview_;
-  OverviewNet narrow_net_;
-  OverviewNet wide_net_;
+  std::vector<OverviewNet> overview_nets_;  // one for each width of its tiles
   TipNet tip_net_;
   std::vector<bool> is_finger_;  // columns of the strip
   Fingers fingers_;

@@ -21,8 +21,7 @@ constexpr int most_cell_px = 64;
 constexpr std::size_t channels = 5;
 
 // A finger's tip lies at most so far beside the columns in which it crosses the strip.
-constexpr int usual_narrow_columns = 88;
-constexpr int usual_wide_columns = 128;
+constexpr std::array<int, Overview::tile_widths> usual_tile_columns{88, 112, 128};
 constexpr int beside_columns = 30;
 // Standard deviations from the background, and in how many cells of a column; noise hardly ever reaches that.
 constexpr float different = 2.5F;
@@ -56,8 +55,8 @@ Overview::Overview(const BorderCurve& border, const BorderStrip::Layout& strip, 
       cells_of_strip_(std::max(1, cell_px_ / strip.column_px)) {
   const ImageSize& image = strip.image;
   columns_ = image.width_px / cell_px_;
-  narrow_columns_ = std::min(columns_, usual_narrow_columns);
-  wide_columns_ = std::min(columns_, usual_wide_columns);
+  for (std::size_t i = 0; i < tile_widths; ++i)
+    tile_columns_[i] = std::min(columns_, usual_tile_columns[i]);
   seen_rows_ = (image.height_px - first_row_px_) / cell_px_;
   if (columns_ < least_cells || seen_rows_ < least_cells) {
     throw std::invalid_argument("too little of the screen is in the picture to look for fingers");
@@ -93,7 +92,7 @@ const Overview::Tiles& Overview::tiles(const std::vector<float>& distance) {
   tiles_.clear();
   const auto differs = [this](int column) { return different_[static_cast<std::size_t>(column)] >= least_different; };
   const auto room_in = [](int columns) { return std::max(1, columns - 2 * beside_columns); };
-  const int room = room_in(wide_columns_);
+  const int room = room_in(tile_columns_.back());
   for (int column = 0; column < columns_ && tiles_.size() < most_tiles;) {
     if (!differs(column)) {
       ++column;
@@ -102,8 +101,11 @@ const Overview::Tiles& Overview::tiles(const std::vector<float>& distance) {
     int last = column;
     for (int i = column; i < std::min(column + room, columns_); ++i)
       last = differs(i) ? i : last;
-    const int wide = last - column < room_in(narrow_columns_) ? narrow_columns_ : wide_columns_;
-    tiles_.push_back({std::clamp((column + last + 1 - wide) / 2, 0, columns_ - wide), wide});
+    std::size_t width = 0;
+    while (width + 1 < tile_widths && last - column >= room_in(tile_columns_[width]))
+      ++width;
+    const int wide = tile_columns_[width];
+    tiles_.push_back({std::clamp((column + last + 1 - wide) / 2, 0, columns_ - wide), width});
     column = last + 1;
   }
   return tiles_;

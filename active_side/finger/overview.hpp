@@ -4,6 +4,7 @@
 // front of the edge to the picture's end, a pixel being some 1.75 mm at the edge.
 #pragma once
 
+#include <array>
 #include <boost/container/static_vector.hpp>
 #include <cstddef>
 #include <cstdint>
@@ -17,16 +18,17 @@
 namespace telehug {
 
 // A grid of rows() by columns() cells; the last rows repeat the last one that the picture holds. It is looked at in
-// tiles, all of its rows by narrow_columns() or wide_columns(): where nothing differs from the background there is no
-// finger to be found.
+// tiles, all of its rows by as many columns as one of tile_columns() says: where nothing differs from the background
+// there is no finger to be found.
 class Overview {
  public:
   static constexpr double cell_mm = 1.75;
   static constexpr double in_front_mm = 42;  // what is seen of the desk
   static constexpr std::size_t most_tiles = 8;
+  static constexpr std::size_t tile_widths = 3;
   struct Tile {
     int first_column;
-    int columns;  // narrow_columns() or wide_columns()
+    std::size_t width;  // which one of tile_columns()
   };
   using Tiles = boost::container::static_vector<Tile, most_tiles>;
 
@@ -38,7 +40,7 @@ class Overview {
   [[nodiscard]] static int first_row_px(const BorderCurve& border, ImageSize image, double px_per_mm);
 
   // With the result of BackgroundStrip::distance(): the tiles in which all that differs from the
-  // background lies, each far enough from the tile's sides: narrow ones about one finger, wide ones about hands.
+  // background lies, each far enough from the tile's sides: narrow ones about one finger, wider ones about hands.
   // Allocates nothing.
   const Tiles& tiles(const std::vector<float>& distance);
 
@@ -50,8 +52,8 @@ class Overview {
 
   [[nodiscard]] int columns() const noexcept { return columns_; }
   [[nodiscard]] int rows() const noexcept { return rows_; }
-  [[nodiscard]] int narrow_columns() const noexcept { return narrow_columns_; }
-  [[nodiscard]] int wide_columns() const noexcept { return wide_columns_; }
+  // Rising.
+  [[nodiscard]] const std::array<int, tile_widths>& tile_columns() const noexcept { return tile_columns_; }
 
   [[nodiscard]] double cell_px() const noexcept { return cell_px_; }
   // Where the middle of a cell is in the picture. Cells count from 0; parts of them are allowed.
@@ -82,8 +84,7 @@ class Overview {
   int columns_ = 0;
   int rows_ = 0;
   int seen_rows_ = 0;
-  int narrow_columns_ = 0;
-  int wide_columns_ = 0;
+  std::array<int, tile_widths> tile_columns_{};
   int cells_of_strip_;  // how many columns of the strip lie in one cell
   std::vector<StripCell> strip_cells_;
   std::vector<float> beyond_edge_;    // of each cell

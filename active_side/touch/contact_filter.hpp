@@ -24,10 +24,10 @@
 namespace telehug {
 
 struct ContactFilterOptions {
-  double tip_noise_px = 0.7;      // standard deviation of a tip of quality 1
+  double tip_noise_px = 0.7;         // standard deviation of a tip of quality 1
   double most_mirror_log_ratio = 4;  // that one picture's mirror image may count
-  double width_noise = 0.07;      // relative standard deviation of a measured width, from frame to frame
-  double known_width = 0.08;      // of the fingers of people who have touched
+  double width_noise = 0.07;         // relative standard deviation of a measured width, from frame to frame
+  double known_width = 0.08;         // of the fingers of people who have touched
   // Hands: a touch meets the screen faster than this, a hand that comes to rest in the air is slower in the end.
   double impact_mm_s = 60;
   double lift_mm_s = 150;     // mean speed of a finger in the first frame after it left the screen

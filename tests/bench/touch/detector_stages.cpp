@@ -23,6 +23,13 @@ BorderStrip sampled(const cv::Mat& bgr, const BorderStrip::Layout& layout) {
   return strip;
 }
 
+std::vector<OverviewNet> nets_of(const Overview& overview) {
+  std::vector<OverviewNet> nets;
+  for (const int columns : overview.tile_columns())
+    nets.emplace_back(overview.rows(), columns);
+  return nets;
+}
+
 // The stages as FingerDetector calls them, with one look at each tip.
 class StagedDetector {
  public:
@@ -32,8 +39,7 @@ class StagedDetector {
         strip_(sampled(empty, layout_)),
         background_(layout_, strip_),
         overview_(border, layout_, px_per_mm_at(camera, {empty.cols / 2.0, border.v_at(empty.cols / 2.0)}).value_or(1)),
-        narrow_net_(overview_.rows(), overview_.narrow_columns()),
-        wide_net_(overview_.rows(), overview_.wide_columns()) {}
+        nets_(nets_of(overview_)) {}
 
   StageTimes detect(const cv::Mat& bgr) {
     StageTimes ms{};
@@ -43,9 +49,9 @@ class StagedDetector {
     const auto& foreground = background_.distance(strip_);
     ms[1] = watch.lap_ms();
     for (const Overview::Tile& tile : overview_.tiles(foreground)) {
-      OverviewNet& net = tile.columns == overview_.narrow_columns() ? narrow_net_ : wide_net_;
+      OverviewNet& net = nets_[tile.width];
       Stopwatch of_tile;
-      overview_.sample(bgr, tile.first_column, tile.columns, net.cells());
+      overview_.sample(bgr, tile.first_column, overview_.tile_columns()[tile.width], net.cells());
       ms[2] += of_tile.lap_ms();
       const OverviewNet::Tips tips = net.find(0);
       ms[3] += of_tile.lap_ms();
@@ -70,8 +76,7 @@ class StagedDetector {
   BorderStrip strip_;
   BackgroundStrip background_;
   Overview overview_;
-  OverviewNet narrow_net_;
-  OverviewNet wide_net_;
+  std::vector<OverviewNet> nets_;
   TipNet tip_net_;
   double row_sum_ = 0;  // so that nothing is left out as unused
 };

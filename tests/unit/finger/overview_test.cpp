@@ -119,9 +119,9 @@ TEST_F(OverviewTest, LaysTilesAboutAllThatDiffers) {
       bool inside = false;
       for (const Overview::Tile& tile : tiles) {
         const double reach = 28;  // a finger may lean so far, unless the picture ends
-        inside =
-            inside || (column - std::min(reach, column) >= tile.first_column - 1 &&
-                       std::min<double>(column + reach, overview_.columns()) <= tile.first_column + tile.columns + 1);
+        inside = inside || (column - std::min(reach, column) >= tile.first_column - 1 &&
+                            std::min<double>(column + reach, overview_.columns()) <=
+                                tile.first_column + overview_.tile_columns()[tile.width] + 1);
       }
       EXPECT_TRUE(inside) << i << " of " << first << " to " << end;
     }
@@ -132,10 +132,13 @@ TEST_F(OverviewTest, LaysTilesAboutAllThatDiffers) {
 TEST_F(OverviewTest, LaysNarrowTilesAboutOneFingerAndWideOnesAboutMore) {
   differ(300, 330);  // 12 cells, 21 mm
   ASSERT_EQ(overview_.tiles(distance_).size(), 1U);
-  EXPECT_EQ(overview_.tiles(distance_)[0].columns, overview_.narrow_columns());
+  EXPECT_EQ(overview_.tiles(distance_)[0].width, 0U);
   differ(370, 400);  // 40 cells from the first to the last
   ASSERT_EQ(overview_.tiles(distance_).size(), 1U);
-  EXPECT_EQ(overview_.tiles(distance_)[0].columns, overview_.wide_columns());
+  EXPECT_EQ(overview_.tiles(distance_)[0].width, 1U);
+  differ(430, 450);  // 60 cells
+  ASSERT_EQ(overview_.tiles(distance_).size(), 1U);
+  EXPECT_EQ(overview_.tiles(distance_)[0].width, 2U);
 }
 
 TEST_F(OverviewTest, ATileIsPartOfTheWhole) {
@@ -144,7 +147,8 @@ TEST_F(OverviewTest, ATileIsPartOfTheWhole) {
   random.fill(bgr, cv::RNG::UNIFORM, 0, 256);
   differ(300, 320);
   sample(bgr);
-  const auto [first_column, columns] = tiles_.front();
+  const auto [first_column, width] = tiles_.front();
+  const int columns = overview_.tile_columns()[width];
   std::vector<float> tile(static_cast<std::size_t>(overview_.rows() * columns) * channels);
   overview_.sample(bgr, first_column, columns, tile.data());
   for (int row = 0; row < overview_.rows(); row += 7) {
@@ -184,7 +188,7 @@ TEST_F(OverviewTest, AllocatesNothingPerFrame) {
   sample(bgr);
   const auto before = allocation_count();
   (void)overview_.tiles(distance_);
-  overview_.sample(bgr, 10, overview_.wide_columns(), values_.data());
+  overview_.sample(bgr, 10, overview_.tile_columns().back(), values_.data());
   EXPECT_EQ(allocation_count(), before);
 }
 
@@ -196,9 +200,11 @@ TEST(OverviewOf, SmallPicturesAndEdgesNearTheirEndIsPossible) {
         const BorderStrip::Layout layout(border, size);
         try {
           Overview overview(border, layout, scale);
-          std::vector<float> values(static_cast<std::size_t>(overview.rows() * overview.wide_columns()) * channels);
+          std::vector<float> values(static_cast<std::size_t>(overview.rows() * overview.tile_columns().back()) *
+                                    channels);
           const std::vector<float> distance(layout.cells(), 4.0F);
-          for (const auto& [first, columns] : overview.tiles(distance)) {
+          for (const auto& [first, width] : overview.tiles(distance)) {
+            const int columns = overview.tile_columns()[width];
             EXPECT_GE(first, 0);
             EXPECT_LE(first + columns, overview.columns());
             overview.sample(cv::Mat::zeros(size.height_px, size.width_px, CV_8UC3), first, columns, values.data());
