@@ -20,6 +20,7 @@ constexpr std::size_t enough_marks = 5;
 constexpr double near_triple_px = 25;  // in pictures 1280 px wide
 constexpr double agrees_px = 4;
 constexpr double agrees_sd = 5;
+constexpr double agrees_with_marks_sd = 3;  // which place the camera better than a few touches do
 
 struct Consensus {
   std::vector<std::size_t> touches;
@@ -37,7 +38,7 @@ class Search {
 
   [[nodiscard]] std::vector<std::size_t> agreeing_with_marks() const {
     const auto solved = solve({});
-    return solved ? near(solved->model, agrees_px * scale_, agrees_sd) : std::vector<std::size_t>();
+    return solved ? near(solved->model, agrees_px * scale_, agrees_with_marks_sd) : std::vector<std::size_t>();
   }
 
   [[nodiscard]] std::optional<Consensus> consensus(const std::vector<std::size_t>& sample) const {
