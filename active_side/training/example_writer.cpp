@@ -13,7 +13,7 @@ namespace telehug {
 namespace {
 
 constexpr std::size_t overview_channels = 5;
-constexpr std::uint32_t magic = 0x54485542;
+constexpr std::uint32_t magic = 0x54485543;
 constexpr double least_logit_of_a_mistake = -3;
 constexpr int most_mistakes = 3;  // of a frame
 

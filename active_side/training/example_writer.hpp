@@ -24,7 +24,7 @@
 namespace telehug {
 
 inline constexpr int example_patch_columns = 128;
-inline constexpr int example_patch_rows = 144;
+inline constexpr int example_patch_rows = 184;
 
 // Writes the frames of one rig.
 class ExampleWriter {

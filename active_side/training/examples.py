@@ -6,8 +6,9 @@ import numpy as np
 import torch
 from torch.nn import functional as F
 
-CANVAS_COLUMNS, CANVAS_ROWS = 128, 144
+CANVAS_COLUMNS, CANVAS_ROWS = 128, 184
 PATCH_COLUMNS, PATCH_ROWS = 64, 80
+ROWS_PER_COLUMN = 1.5  # of the same length in the picture
 TIP_COLUMN, TIP_ROW = 32, 44  # where a patch is laid so that the tip is there
 EDGE_REACH_CELLS = 16
 
@@ -19,7 +20,7 @@ def read(path, which):
     at, found = 0, []
     while at < len(data):
         magic, rig, columns, rows, tips, count = struct.unpack_from("<IIHHHH", view, at)
-        assert magic == 0x54485542
+        assert magic == 0x54485543, path + " was written by another telehug-training-frames"
         at += 16
         cells = data[at:at + columns * rows * 4].reshape(rows, columns, 4)
         at += cells.size
@@ -135,7 +136,7 @@ def overview_batch(overviews, picks, rng, vary, columns=160, rows=72):
 
 def tip_batch(patches, picks, rng, vary):
     """Inputs n, 3, rows, columns; places; numbers (column and row of the tip in the patch, present, touches, hover_mm,
-    width)."""
+    width in columns)."""
     n = len(picks)
     pixels = np.stack([patches[k][2] for k in picks])
     numbers = np.stack([patches[k][1] for k in picks]).astype(np.float32)
@@ -143,14 +144,15 @@ def tip_batch(patches, picks, rng, vary):
     reach = rng.choice([(3, 4), (8, 12), (14, 20)], n, p=[0.4, 0.4, 0.2])
     shift = (reach * rng.uniform(-1, 1, (n, 2))).astype(np.float32)
     present = numbers[:, 2] > 0.5
-    middle = np.where(present[:, None], numbers[:, :2], [CANVAS_COLUMNS / 2, CANVAS_ROWS / 2 - 8])
+    middle = np.where(present[:, None], numbers[:, :2], [(CANVAS_COLUMNS - 1) / 2, (CANVAS_ROWS - 1) / 2])
     zoom = np.exp(rng.uniform(-0.13, 0.13, n)).astype(np.float32) if vary else np.ones(n, np.float32)
     turn = rng.uniform(-0.09, 0.09, n).astype(np.float32) if vary else np.zeros(n, np.float32)
     flip = np.where(rng.uniform(size=n) < 0.5, -1.0, 1.0).astype(np.float32) if vary else np.ones(n, np.float32)
     # Patch pixel p is canvas pixel M (p - tip_at) + middle, so the tip lies at its place plus the shift. affine_grid
     # counts in halves of the pictures from their middles.
     cos, sin = np.cos(turn) / zoom, np.sin(turn) / zoom
-    matrix = np.stack([np.stack([cos * flip, -sin], 1), np.stack([sin * flip, cos], 1)], 1)
+    matrix = np.stack([np.stack([cos * flip, -sin / ROWS_PER_COLUMN], 1),
+                       np.stack([sin * flip * ROWS_PER_COLUMN, cos], 1)], 1)
     tip_at = np.array([TIP_COLUMN, TIP_ROW], np.float32) + shift
     half_patch = np.array([PATCH_COLUMNS - 1, PATCH_ROWS - 1]) / 2
     half_canvas = np.array([CANVAS_COLUMNS - 1, CANVAS_ROWS - 1]) / 2

@@ -66,7 +66,7 @@ def tip_report(net, patches, rng):
     far = tip & (found[:, 3] < 0.5) & (found[:, 4] >= 10)
     off = lambda k: f"{found[touch, k].mean():.2f} (95 % {found[touch, k].quantile(0.95):.2f})"
     says_touch = found[:, 7] > 0
-    return (f"px across {off(0)} along {off(1)}; touches called hovering {(~says_touch[touch]).float().mean():.3f}, "
+    return (f"columns off {off(0)} rows {off(1)}; touches called hovering {(~says_touch[touch]).float().mean():.3f}, "
             f"hovering >= 10 mm called touching {says_touch[far].float().mean():.3f} of {int(far.sum())}; "
             f"tips missed {(found[tip, 6] < 0).float().mean():.3f}, invented {(found[~tip, 6] > 0).float().mean():.3f}; "
             f"width {(found[touch, 9] * 40 / found[touch, 5] - 1).abs().mean():.3f}")
