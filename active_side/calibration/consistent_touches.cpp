@@ -20,7 +20,7 @@ constexpr std::size_t enough_marks = 5;
 constexpr double near_triple_px = 25;  // in pictures 1280 px wide
 constexpr double agrees_px = 4;
 constexpr double agrees_sd = 5;
-constexpr double agrees_with_marks_sd = 3;  // which place the camera better than a few touches do
+constexpr double agrees_with_marks_sd = 3;  // marks place the camera better than a few touches do
 
 struct Consensus {
   std::vector<std::size_t> touches;

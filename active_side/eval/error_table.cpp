@@ -63,6 +63,10 @@ std::string format_error_table(const EvalTouchReport& report) {
                  calibration.border.v0_px, calibration.border.slope, calibration.camera_below_top_mm());
   for (const std::string& fault : report.part.unreadable)
     fmt::format_to(out, "not used: {}\n", fault);
+  for (const EvaluatedContact& contact : report.part.contacts) {
+    fmt::format_to(out, "contact {}: from frame {} {}\n", contact.id, contact.down,
+                   contact.up.empty() ? "on" : "until frame " + contact.up);
+  }
   if (!report.score) {
     fmt::format_to(out, "{} frames; there is no truth.csv to compare with\n", report.part.found.size());
     return text;
@@ -74,10 +78,6 @@ std::string format_error_table(const EvalTouchReport& report) {
   for (const auto& [name, group] : groups_that_differ(groups))
     fmt::format_to(out, "{}\n", error_row(name, group));
   print_false_touches(out, *report.score);
-  for (const EvaluatedContact& contact : report.part.contacts) {
-    fmt::format_to(out, "contact {}: from frame {} {}\n", contact.id, contact.down,
-                   contact.up.empty() ? "on" : "until frame " + contact.up);
-  }
   if (report.part.dropped > 0) {
     fmt::format_to(out, "{} fingers lay too far outside the screen and were dropped\n", report.part.dropped);
   }

@@ -52,7 +52,7 @@ class Overview {
 
   [[nodiscard]] int columns() const noexcept { return columns_; }
   [[nodiscard]] int rows() const noexcept { return rows_; }
-  // Rising.
+  // Never falling; in small pictures they are the same.
   [[nodiscard]] const std::array<int, tile_widths>& tile_columns() const noexcept { return tile_columns_; }
 
   [[nodiscard]] double cell_px() const noexcept { return cell_px_; }

@@ -56,23 +56,28 @@ ContactFilter::ContactFilter(const CameraFoot& camera, const ContactFilterOption
                              const FingerObservation& first, std::optional<double> seconds_unseen)
     : camera_(camera), options_(options), belief_{0.6, 0.39, 0.01} {
   remember(first);
-  if (seconds_unseen && *seconds_unseen > 0) came_over_border(*seconds_unseen);
-  weigh_mirror(first.mirror);
+  const bool beside_edge = seconds_unseen && *seconds_unseen > 0 && came_over_border(*seconds_unseen);
+  weigh_mirror(first.mirror, beside_edge ? options_.most_mirror_log_ratio : options_.first_mirror_log_ratio);
   weigh_width(first, known);
 }
 
-// It was not there a frame ago, so it came over the bottom edge since: with at least this speed.
-void ContactFilter::came_over_border(double seconds) {
-  constexpr double slowest_mm_s = 200;   // mean of hands that come
-  constexpr double fastest_mm_s = 1000;  // what appears faster was there before, or is no hand
+// It was not there a frame ago, so it came over the bottom edge since: with at least this speed. True if it did not
+// come far: then it may have landed before it could be seen.
+bool ContactFilter::came_over_border(double seconds) {
+  constexpr double slowest_mm_s = 200;    // mean of hands that come
+  constexpr double fastest_mm_s = 1000;   // what appears faster was there before, or is no hand
+  constexpr double beside_edge_mm = 2.5;  // a hand falls farther within a frame
+  constexpr double a_frame_s = 1.0 / 30;
   const double border_mm = camera_.screen_bottom_mm - camera_.foot.y_mm;
   const double y_mm = std::max(1.0, last_.screen.y_mm - camera_.foot.y_mm);
-  const double speed = std::log(std::max(1.0, border_mm / y_mm)) / seconds;
-  if (speed * camera_.height_mm > fastest_mm_s) return;
+  const double way = std::log(std::max(1.0, border_mm / y_mm));
+  const double speed = way / seconds;
+  if (speed * camera_.height_mm > fastest_mm_s) return false;
   log_r_speed_ = -std::max(speed, slowest_mm_s / camera_.height_mm);
-  // It may have landed since, near the edge; but what nobody saw coming is to be believed only if the mirror is sure.
-  const double landed = 0.25 * std::min(1.0, options_.land_rate * seconds);
-  belief_ = {0.97 * (1 - landed), 0.03, 0.97 * landed};
+  // It may have landed since. But what nobody saw coming may be no finger at all.
+  const double landed = 0.25 * options_.land_rate * std::min(seconds, a_frame_s);
+  belief_ = {0.97 - landed, 0.03, landed};
+  return way * camera_.height_mm < beside_edge_mm;
 }
 
 double ContactFilter::noise_mm(const FingerObservation& finger) const {
@@ -190,7 +195,7 @@ void ContactFilter::update(const FingerObservation& finger, double seconds, cons
     radial_mm_s_ = step.radial_mm / seconds;
     across_mm_s_ = step.across_mm / seconds;
   }
-  weigh_mirror(finger.mirror);
+  weigh_mirror(finger.mirror, options_.most_mirror_log_ratio);
   remember(finger);
   weigh_width(finger, known);
 }
@@ -218,9 +223,9 @@ std::optional<double> ContactFilter::width() const noexcept {
   return width_sum_ / widths_;
 }
 
-void ContactFilter::weigh_mirror(const MirrorEvidence& mirror) {
+void ContactFilter::weigh_mirror(const MirrorEvidence& mirror, double most_log_ratio) {
   if (mirror.state == MirrorState::unknown) return;
-  const double unlikely = std::exp(-std::clamp(mirror.log_ratio, 0.0, options_.most_mirror_log_ratio));
+  const double unlikely = std::exp(-std::clamp(mirror.log_ratio, 0.0, most_log_ratio));
   const bool touching = mirror.state == MirrorState::touching;
   belief_[touching_state] *= touching ? 1 : unlikely;
   belief_[moving_state] *= touching ? unlikely : 1;

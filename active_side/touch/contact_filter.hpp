@@ -24,10 +24,12 @@
 namespace telehug {
 
 struct ContactFilterOptions {
-  double tip_noise_px = 0.7;         // standard deviation of a tip of quality 1
-  double most_mirror_log_ratio = 4;  // that one picture's mirror image may count
-  double width_noise = 0.07;         // relative standard deviation of a measured width, from frame to frame
-  double known_width = 0.08;         // of the fingers of people who have touched
+  double tip_noise_px = 0.7;  // standard deviation of a tip of quality 1
+  // What one picture's mirror image counts at most; less where a finger is first seen, which may be a flash.
+  double most_mirror_log_ratio = 4;
+  double first_mirror_log_ratio = 2.3;
+  double width_noise = 0.07;  // relative standard deviation of a measured width, from frame to frame
+  double known_width = 0.08;  // of the fingers of people who have touched
   // Hands: a touch meets the screen faster than this, a hand that comes to rest in the air is slower in the end.
   double impact_mm_s = 60;
   double lift_mm_s = 150;     // mean speed of a finger in the first frame after it left the screen
@@ -91,8 +93,8 @@ class ContactFilter {
   [[nodiscard]] std::array<States, 3> transitions(const Step& step) const;
   [[nodiscard]] double rests_or_slides(const Step& step, double extra_radial_mm) const;
   [[nodiscard]] double noise_mm(const FingerObservation& finger) const;
-  void came_over_border(double seconds);
-  void weigh_mirror(const MirrorEvidence& mirror);
+  bool came_over_border(double seconds);
+  void weigh_mirror(const MirrorEvidence& mirror, double most_log_ratio);
   void weigh_width(const FingerObservation& finger, const FingerWidth& known);
   void remember(const FingerObservation& finger);
 

@@ -158,8 +158,9 @@ class SimulatedHand {
   MirrorEvidence mirror(double height_mm, const SimulatedSight& sight) {
     if (height_mm > 30 || chance(0.1)) return {};
     bool touching = height_mm < 1.5;
-    if (chance(sight.wrong_mirror)) touching = !touching;
-    const double log_ratio = between(1.4, 2.3);
+    const bool wrong = chance(sight.wrong_mirror);
+    if (wrong) touching = !touching;
+    const double log_ratio = wrong ? between(0, 2) : between(1, 4);  // as the net is: seldom sure of what is wrong
     return {touching ? MirrorState::touching : MirrorState::hovering, touching ? 0 : height_mm, log_ratio};
   }
 

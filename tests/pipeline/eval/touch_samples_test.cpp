@@ -320,9 +320,11 @@ TEST_P(TouchSamples, AreFoundByTheDefaultWithinMillimetres) {
           ++late;
           continue;
         }
+        EXPECT_TRUE(touch.near()) << name << " " << part.name << " " << touch.frame;
         vertical_mm.push_back(std::abs(touch.vertical_error_mm));
         horizontal_mm.push_back(std::abs(touch.horizontal_error_mm));
       }
+      EXPECT_TRUE(report.score->extras.empty()) << name << " " << part.name;
       for (const ScoredRest& rest : report.score->rests)
         false_touches += rest.kind == "hover" ? 0 : rest.false_touches.size();
     }

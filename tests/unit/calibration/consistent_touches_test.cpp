@@ -57,6 +57,14 @@ TEST(ConsistentTouches, AreThoseThatAgreeWithFiveMarks) {
   EXPECT_THAT(consistent_touches(seen), ElementsAre(0, 1));
   seen.touches[0].image.u_px += 30;
   EXPECT_THAT(consistent_touches(seen), ElementsAre(1));
+  // A contact is seen less exactly than a dot, but a nail's tip is not where the finger touches.
+  seen.touches[0].evidence = TouchEvidence::contact;
+  seen.touches[0].sigma_v_px = 1.5;
+  seen.touches[0].image = rig.model.camera.project(seen.touches[0].screen).value();
+  seen.touches[0].image.v_px += 7;
+  EXPECT_THAT(consistent_touches(seen), ElementsAre(0, 1));
+  seen.touches[0].image.v_px += 3;
+  EXPECT_THAT(consistent_touches(seen), ElementsAre(1));
   seen.marks.pop_back();
   EXPECT_THAT(consistent_touches(seen), ElementsAre(0, 1));
 }

@@ -7,6 +7,7 @@
 #include <optional>
 #include <random>
 #include <set>
+#include <tuple>
 #include <vector>
 
 #include "doubles/allocation_counter.hpp"
@@ -154,17 +155,18 @@ TEST(FingerTracks, EndAContactThatIsGoneForLongInADisturbedScene) {
   EXPECT_EQ(played.ups, 1);
 }
 
-TEST(FingerTracks, TouchWhenTheyAppearIfTheMirrorIsSure) {
-  for (const auto& [log_ratio, downs] : {std::pair{4.0, 1}, {1.5, 0}}) {
+TEST(FingerTracks, TouchWhenTheyAppearBesideTheEdgeIfTheMirrorIsSure) {
+  for (const auto& [y_mm, log_ratio, downs] :
+       {std::tuple{290, 4.0, 1}, {290, 1.5, 0}, {200, 4.0, 0}}) {  // the edge is at 300 mm
     ContactTracker fingers = tracker();
-    const auto played = play(fingers, -2, 1, [log_ratio = log_ratio](int i) {
+    const auto played = play(fingers, -2, 1, [y_mm = y_mm, log_ratio = log_ratio](int i) {
       Fingers frame{{}, Scene::steady};
       if (i < 0) return frame;
-      frame.first.push_back(seen_at(150, 280, 0, MirrorState::touching));
+      frame.first.push_back(seen_at(150, y_mm, 0, MirrorState::touching));
       frame.first.back().mirror.log_ratio = log_ratio;
       return frame;
     });
-    EXPECT_EQ(played.downs, downs) << log_ratio;
+    EXPECT_EQ(played.downs, downs) << y_mm << " mm, " << log_ratio;
   }
 }
 
@@ -179,6 +181,7 @@ TEST(FingerTracks, TakeNoFlashForATouch) {
     if (between(random) < 0.3) {
       frame.first.push_back(seen_at(400 * between(random), 60 + 240 * between(random), 0,
                                     static_cast<MirrorState>(static_cast<int>(3 * between(random)))));
+      frame.first.back().mirror.log_ratio = 4 * between(random);
       frame.second = between(random) < 0.8 ? Scene::disturbed : Scene::steady;
     }
     return frame;
