@@ -5,6 +5,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "finger/mirror_evidence.hpp"
 #include "finger/picture_scale.hpp"
 #include "finger/tip_patch.hpp"
 
@@ -15,7 +16,7 @@ constexpr int least_width_px = 320;
 constexpr int least_height_px = 180;
 constexpr double least_overview_logit = -1;  // a tip that is looked at more closely
 constexpr double least_present_logit = -1;
-constexpr double agreeing_patch_px = 5;  // looks further apart than that are followed by another one
+constexpr double agreeing_patch_columns = 5;  // looks further apart than that are followed by another one
 
 ImageSize checked(ImageSize image) {
   if (image.width_px < least_width_px || image.height_px < least_height_px) {
@@ -32,18 +33,6 @@ TipLook mean(const TipLook& a, const TipLook& b) {
   both.hover_mm = (a.hover_mm + b.hover_mm) / 2;
   both.width = (a.width + b.width) / 2;
   return both;
-}
-
-MirrorEvidence evidence(const TipLook& look) {
-  // A touch that is not seen is worse than one that motion still tells from hovering.
-  constexpr double surely_hovering = -1.4;
-  // Of the fingers that it learned on, three touch for one that hovers and looks as if it touched.
-  constexpr double log_odds_learned = 1;
-  constexpr double most = 4;  // of 420 rendered fingers that hover none is seen to touch more surely, of touches half
-  const double log_ratio = std::clamp(look.touches_logit - log_odds_learned, -most, most);
-  if (look.touches_logit <= surely_hovering) return {MirrorState::hovering, look.hover_mm, -log_ratio};
-  if (log_ratio > 0) return {MirrorState::touching, 0, log_ratio};
-  return {};
 }
 
 }  // namespace
@@ -122,7 +111,7 @@ std::optional<Finger> FingerDetector::look_at(const cv::Mat& bgr, const ImagePoi
   Look before = look_once(bgr, near, false);
   Look last = look_once(bgr, before.tip, true);
   const double apart_px = std::hypot(last.tip.u_px - before.tip.u_px, last.tip.v_px - before.tip.v_px);
-  if (apart_px > agreeing_patch_px * last.step_px) {
+  if (apart_px > agreeing_patch_columns * last.step_px) {
     before = last;
     last = look_once(bgr, last.tip, false);
   }
@@ -137,7 +126,7 @@ std::optional<Finger> FingerDetector::look_at(const cv::Mat& bgr, const ImagePoi
   finger.contact = tip;
   if (camera_) {
     finger.px_per_mm = px_per_mm(tip);
-    finger.mirror = evidence(look);
+    finger.mirror = mirror_evidence(look.touches_logit, look.hover_mm);
   }
   return finger;
 }

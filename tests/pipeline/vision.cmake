@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-telehug_test(test_touch_samples KIND pipeline SUBJECT touch SOURCES pipeline/eval/touch_samples_test.cpp
+telehug_test(test_touch_samples KIND pipeline SUBJECT touch
+  SOURCES pipeline/eval/touch_evaluation_test.cpp pipeline/eval/touch_samples_test.cpp
   DEPS active_eval telehug_pictures)
 telehug_test(test_virtual_rig_dots KIND pipeline SUBJECT touch SOURCES pipeline/eval/virtual_rig_dots_test.cpp
   DEPS active_detection active_capture)

@@ -28,7 +28,7 @@ telehug_test(test_finger KIND unit SUBJECT touch
   DEPS active_finger telehug_pictures opencv::imgproc)
 telehug_test(test_finger_stages KIND unit SUBJECT touch
   SOURCES doubles/allocation_counter.cpp unit/finger/background_strip_test.cpp unit/finger/border_strip_test.cpp
-          unit/finger/overview_test.cpp unit/finger/tip_patch_test.cpp
+          unit/finger/mirror_evidence_test.cpp unit/finger/overview_test.cpp unit/finger/tip_patch_test.cpp
   DEPS active_finger opencv::core)
 telehug_test(test_background KIND unit SUBJECT touch
   SOURCES unit/finger/background_file_test.cpp unit/finger/background_learner_test.cpp

@@ -142,8 +142,9 @@ Errors errors_of(FrameKind kind, std::uint64_t frames) {
 TEST(RenderedFingers, AreFoundWhereTheyTouch) {
   const Errors errors = errors_of(FrameKind::touch, 8);
   EXPECT_LE(errors.missed, 3U) << "of " << errors.touches << ": " << errors.which;
-  EXPECT_LT(Errors::mean(errors.vertical_mm), 1.3);
-  EXPECT_LT(Errors::mean(errors.horizontal_mm), 0.8);
+  // 0.75 and 0.39; with coarser rows, or patches laid where the net did not learn, 0.81 and more vertically.
+  EXPECT_LT(Errors::mean(errors.vertical_mm), 0.79);
+  EXPECT_LT(Errors::mean(errors.horizontal_mm), 0.45);
   RecordProperty("vertical_mm", std::to_string(Errors::mean(errors.vertical_mm)));
   RecordProperty("horizontal_mm", std::to_string(Errors::mean(errors.horizontal_mm)));
   RecordProperty("missed", std::to_string(errors.missed));

@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The thesis' algorithm on pictures of two rigs: the fixtures always, the whole samples where they lie beside the
-// project (../shared/touch-samples).
+// The thesis' algorithm and the default on pictures of two rigs: the fixtures always, the whole samples where they lie
+// beside the project (../shared/touch-samples).
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <stdlib.h>
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <opencv2/core.hpp>
@@ -23,6 +21,7 @@
 #include "calibration/drift_watch.hpp"
 #include "calibration/screen_border.hpp"
 #include "capture/rig_directory.hpp"
+#include "doubles/temporary_folder.hpp"
 #include "eval/error_statistics.hpp"
 #include "eval/error_table.hpp"
 #include "eval/rig_calibration.hpp"
@@ -56,21 +55,6 @@ std::vector<std::string> lines_of(const fs::path& file) {
     lines.push_back(line);
   return lines;
 }
-
-class Folder {
- public:
-  Folder() {
-    std::string name = (fs::temp_directory_path() / "telehug-eval-XXXXXX").string();
-    path_ = ::mkdtemp(name.data());
-  }
-  ~Folder() { fs::remove_all(path_); }
-  Folder(const Folder&) = delete;
-  Folder& operator=(const Folder&) = delete;
-  [[nodiscard]] fs::path operator/(const char* name) const { return path_ / name; }
-
- private:
-  fs::path path_;
-};
 
 class TouchSamples : public testing::TestWithParam<fs::path> {
  protected:
@@ -112,7 +96,7 @@ TEST_P(TouchSamples, CalibrateBothRigsWithTwoTouches) {
     ASSERT_TRUE(calibration.ok()) << calibration.error().message;
     // The pictures are mirrored: right is the user's left.
     EXPECT_LT(std::get<ThesisCalibration>(calibration->solved).model.horizontal_scale_px(), 0);
-    const Folder folder;
+    const TemporaryFolder folder;
     ASSERT_TRUE(write_calibration(folder / "rig.toml", *calibration).ok());
     const auto read = read_calibration(folder / "rig.toml");
     ASSERT_TRUE(read.ok()) << read.error().message;
@@ -147,7 +131,7 @@ TEST_P(TouchSamples, CalibrateTheDefaultModelWithAllTouches) {
     EXPECT_EQ(solved.solution.model.camera.orientation(), PictureOrientation{}) << name;
     EXPECT_NEAR(calibration->camera_below_top_mm(), 0, 40) << name;
     EXPECT_TRUE(judge_calibration(solved, {}).good()) << name;
-    const Folder folder;
+    const TemporaryFolder folder;
     ASSERT_TRUE(write_calibration(folder / "rig.toml", *calibration).ok());
     EXPECT_TRUE(read_calibration(folder / "rig.toml").ok());
   }
@@ -208,7 +192,7 @@ TEST_P(TouchSamples, NeverLookAsIfTheCameraHadMoved) {
 // With the screen lit and a triangle on it, the border is the screen's own edge, not its mirror image.
 TEST_P(TouchSamples, GiveTheScreensOwnEdgeWithATriangle) {
   const BorderLine edge{519.1, 0.0074};
-  const Folder folder;
+  const TemporaryFolder folder;
   fs::copy(GetParam() / "rig1", folder / "rig", fs::copy_options::recursive);
   auto picture = read_picture(folder / "rig/background.jpg");
   ASSERT_TRUE(picture.ok());
@@ -280,7 +264,7 @@ TEST_P(TouchSamples, AreFollowedFromTheBezelToTheTip) {
 }
 
 TEST_P(TouchSamples, BecomeACsvWithOneRowAFingerAndOneAFrameWithout) {
-  const Folder folder;
+  const TemporaryFolder folder;
   EvalTouchOptions chosen = options("rig2", "frames");
   chosen.out = folder / "touches.csv";
   const EvalTouchReport report = eval(chosen);
@@ -338,71 +322,6 @@ TEST_P(TouchSamples, AreFoundByTheDefaultWithinMillimetres) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Both, TouchSamples, testing::ValuesIn(sample_folders()), folder_name);
-
-class WrongEvaluation : public testing::Test {
- protected:
-  static std::string fault(const EvalTouchOptions& options) {
-    const auto report = eval_touch(options);
-    return report.ok() ? "it was evaluated" : report.error().message;
-  }
-
-  EvalTouchOptions options_ = [] {
-    EvalTouchOptions options;
-    options.rig = TELEHUG_FIXTURES "/rig2";
-    return options;
-  }();
-};
-
-TEST_F(WrongEvaluation, NamesTheUnknownChoice) {
-  options_.algorithm.detector = "magic";
-  EXPECT_THAT(fault(options_), HasSubstr("--detector magic is unknown"));
-  options_.algorithm.detector = "thesis";
-  options_.algorithm.model = "magic";
-  EXPECT_THAT(fault(options_), HasSubstr("--model magic is unknown"));
-}
-
-TEST_F(WrongEvaluation, NamesTheMissingPart) {
-  options_.part = "hard";
-  EXPECT_THAT(fault(options_), HasSubstr("has no part \"hard\""));
-}
-
-TEST_F(WrongEvaluation, NamesTheMissingCalibrationTouch) {
-  options_.calibration = {1, 77};
-  EXPECT_THAT(fault(options_), HasSubstr("has no calibration touch 77"));
-}
-
-TEST_F(WrongEvaluation, WantsTwoCalibrationTouches) {
-  options_.algorithm.model = "thesis";
-  options_.calibration = {1, 2, 4};
-  EXPECT_THAT(fault(options_), HasSubstr("calibrated with 2 touches, not 3"));
-}
-
-TEST_F(WrongEvaluation, NamesTheFileThatCanNotBeWritten) {
-  options_.out = "/no/such/folder/touches.csv";
-  EXPECT_THAT(fault(options_), HasSubstr("can't write /no/such/folder/touches.csv"));
-}
-
-TEST_F(WrongEvaluation, NamesTheCalibrationPictureWithoutAFinger) {
-  const Folder folder;
-  fs::copy(options_.rig, folder / "rig", fs::copy_options::recursive);
-  fs::copy(folder / "rig/background.jpg", folder / "rig/calibration/02.jpg", fs::copy_options::overwrite_existing);
-  options_.algorithm.model = "thesis";
-  options_.rig = folder / "rig";
-  EXPECT_THAT(fault(options_), HasSubstr("calibration/02.jpg: no finger crosses"));
-}
-
-TEST_F(WrongEvaluation, GoesOnAfterADamagedPicture) {
-  const Folder folder;
-  fs::copy(options_.rig, folder / "rig", fs::copy_options::recursive);
-  fs::resize_file(folder / "rig/frames/012.jpg", 2000);
-  options_.rig = folder / "rig";
-  const auto report = eval_touch(options_);
-  ASSERT_TRUE(report.ok()) << report.error().message;
-  ASSERT_EQ(report->part.unreadable.size(), 1U);
-  EXPECT_THAT(report->part.unreadable[0], HasSubstr("012.jpg"));
-  EXPECT_EQ(report->part.found.size(), 2U);
-  EXPECT_THAT(format_error_table(*report), HasSubstr("not used: "));
-}
 
 }  // namespace
 }  // namespace telehug

@@ -170,6 +170,15 @@ TEST(FingerTracks, TouchWhenTheyAppearBesideTheEdgeIfTheMirrorIsSure) {
   }
 }
 
+// While no pictures came it may have come from anywhere and landed or not.
+TEST(FingerTracks, DoNotTouchJustBecauseNothingWasSeenForLong) {
+  ContactTracker fingers = tracker();
+  fingers.update({}, simulated_time(0));
+  FingerObservation finger = seen_at(150, 290, 0, MirrorState::touching);
+  finger.mirror.log_ratio = 1.5;
+  EXPECT_TRUE(fingers.update({finger}, simulated_time(1)).empty());
+}
+
 // A flashing screen makes detectors see fingers where there are none, here and there, with any evidence. Of five such
 // frames four are known to be disturbed.
 TEST(FingerTracks, TakeNoFlashForATouch) {
