@@ -7,7 +7,7 @@
 #include <optional>
 #include <stdexcept>
 
-#include "body_map/haar_face_finder.hpp"
+#include "body_map/make_face_finder.hpp"
 #include "body_map/picture_grabber.hpp"
 #include "calibration/calibration_file.hpp"
 #include "config/places.hpp"
@@ -44,8 +44,8 @@ Result<std::unique_ptr<Rig>> make_rig(const ActiveConfig& config, const SessionI
                     "calibrate again or correct the configuration",
                     path.string())};
   }
-  auto finder = make_haar_face_finder();
-  if (!finder) return finder.error();
+  auto faces = make_face_finder(config.body_map.face);
+  if (!faces) return faces.error();
 
   ActivePipelineOptions options;
   const bool real_camera = config.camera.source.starts_with("webcam");
@@ -56,18 +56,18 @@ Result<std::unique_ptr<Rig>> make_rig(const ActiveConfig& config, const SessionI
   step.tracker.hold = std::chrono::milliseconds(config.body_map.hold_ms);
   PictureGrabberConfig grabber;
   grabber.path = config.body_map.picture;
-  auto face = std::make_shared<FaceWorker>(std::make_unique<PictureGrabber>(grabber, clock), *std::move(finder), step,
+  auto face = std::make_shared<FaceWorker>(std::make_unique<PictureGrabber>(grabber, clock), std::move(faces->finder), step,
                                            config.body_map.rate_hz, clock, metrics);
   try {
     std::optional<BorderStrip> background;
-    std::string note;
+    std::string note = faces->note;
     if (config.touch.detector != "thesis") {
       auto kept = read_background_of(path, *calibration);
       if (kept) {
         background = *std::move(kept);
       } else {
-        note = fmt::format("{}: the background is learnt from the first pictures in which nothing moves",
-                           kept.error().message);
+        note += fmt::format("{}{}: the background is learnt from the first pictures in which nothing moves",
+                           note.empty() ? "" : " ", kept.error().message);
       }
     }
     AnyDetector detector = make_detector(config.touch.detector, *calibration, background);

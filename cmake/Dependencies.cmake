@@ -2,6 +2,7 @@
 # Everything telehug is built from, as Debian 12 packages it (deploy/setup installs the packages).
 
 find_package(Threads REQUIRED)
+find_package(OpenSSL REQUIRED)
 find_package(fastcdr REQUIRED)
 find_package(fastrtps REQUIRED)
 find_package(fmt REQUIRED)
@@ -24,7 +25,7 @@ set_target_properties(xnnpack::xnnpack PROPERTIES IMPORTED_LOCATION ${XNNPACK_LI
 
 # OpenCV part by part: the package with the complete CMake description pulls in 40 packages more that nothing here uses.
 find_path(OPENCV_INCLUDE_DIR opencv2/core.hpp PATH_SUFFIXES opencv4 REQUIRED)
-foreach(part core imgproc objdetect)
+foreach(part core imgproc objdetect dnn)
   find_library(OPENCV_${part}_LIBRARY opencv_${part} REQUIRED)
   add_library(opencv::${part} UNKNOWN IMPORTED GLOBAL)
   set_target_properties(opencv::${part} PROPERTIES IMPORTED_LOCATION ${OPENCV_${part}_LIBRARY}
@@ -32,3 +33,4 @@ foreach(part core imgproc objdetect)
 endforeach()
 target_link_libraries(opencv::imgproc INTERFACE opencv::core)
 target_link_libraries(opencv::objdetect INTERFACE opencv::imgproc)
+target_link_libraries(opencv::dnn INTERFACE opencv::imgproc)

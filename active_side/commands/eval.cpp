@@ -4,9 +4,9 @@
 #include <optional>
 #include <string>
 
-#include "body_map/haar_face_finder.hpp"
 #include "commands/command.hpp"
 #include "commands/eval_rigs.hpp"
+#include "commands/face_option.hpp"
 #include "commands/utc_now.hpp"
 #include "eval/error_table.hpp"
 #include "eval/touch_eval.hpp"
@@ -53,10 +53,11 @@ ExitCode evaluate_touch(TouchOptions options) {
 struct FaceOptions {
   std::string folder;
   std::string out;
+  std::string finder = "blaze";
 };
 
 ExitCode evaluate_face(const FaceOptions& options) {
-  auto finder = make_haar_face_finder();
+  const auto finder = chosen_face_finder(options.finder);
   if (!finder) return fail(ExitCode::device, finder.error());
   const auto evaluation = eval_face(options.folder, options.out, **finder);
   if (!evaluation) return fail(ExitCode::device, evaluation.error());
@@ -100,6 +101,7 @@ void add_eval(CLI::App& app, ExitCode& result) {
   eval_face->add_option("--out", face->out, "CSV: image,face_x,face_y,face_w,face_h")
       ->required()
       ->type_name("FILE.csv");
+  add_face_option(*eval_face, face->finder);
   eval_face->callback([face, &result] { result = evaluate_face(*face); });
 }
 

@@ -5,8 +5,8 @@
 #include <memory>
 #include <vector>
 
-#include "body_map/haar_face_finder.hpp"
 #include "commands/command.hpp"
+#include "commands/face_option.hpp"
 
 namespace telehug {
 namespace {
@@ -14,13 +14,14 @@ namespace {
 struct Options {
   std::string picture;
   std::string out;
+  std::string finder = "blaze";
   std::uint16_t touched = 0;
   std::vector<double> at_px;
   std::vector<int> view_px;
 };
 
 ExitCode run(const Options& options) {
-  auto finder = make_haar_face_finder();
+  const auto finder = chosen_face_finder(options.finder);
   if (!finder) return fail(ExitCode::device, finder.error());
   ShowBoxesOptions show;
   show.picture = options.picture;
@@ -53,6 +54,7 @@ void add_show_boxes(CLI::App& app, ExitCode& result) {
   command->add_option("--view", options->view_px, "The chat's part of the picture, in pixels: X,Y,WIDTH,HEIGHT")
       ->delimiter(',')
       ->expected(4);
+  add_face_option(*command, options->finder);
   command->callback([options, &result] { result = run(*options); });
 }
 

@@ -55,7 +55,7 @@ struct LocalTouchConfig {
 
 struct BodyMapConfig {
   std::string picture;        // file or folder
-  std::string face = "haar";  // haar
+  std::string face = "blaze";  // blaze, haar
   double rate_hz = 8;
   int hold_ms = 1500;
   int max_age_ms = 3000;
