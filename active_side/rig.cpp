@@ -8,10 +8,10 @@
 #include <stdexcept>
 
 #include "body_map/make_face_finder.hpp"
-#include "body_map/picture_grabber.hpp"
 #include "calibration/calibration_file.hpp"
 #include "config/places.hpp"
 #include "detection/make_detector.hpp"
+#include "screen/picture_grabber.hpp"
 
 namespace telehug {
 namespace {
@@ -56,8 +56,8 @@ Result<std::unique_ptr<Rig>> make_rig(const ActiveConfig& config, const SessionI
   step.tracker.hold = std::chrono::milliseconds(config.body_map.hold_ms);
   PictureGrabberConfig grabber;
   grabber.path = config.body_map.picture;
-  auto face = std::make_shared<FaceWorker>(std::make_unique<PictureGrabber>(grabber, clock), std::move(faces->finder), step,
-                                           config.body_map.rate_hz, clock, metrics);
+  auto face = std::make_shared<FaceWorker>(std::make_unique<PictureGrabber>(grabber, clock), std::move(faces->finder),
+                                           step, config.body_map.rate_hz, clock, metrics);
   try {
     std::optional<BorderStrip> background;
     std::string note = faces->note;
@@ -67,7 +67,7 @@ Result<std::unique_ptr<Rig>> make_rig(const ActiveConfig& config, const SessionI
         background = *std::move(kept);
       } else {
         note += fmt::format("{}{}: the background is learnt from the first pictures in which nothing moves",
-                           note.empty() ? "" : " ", kept.error().message);
+                            note.empty() ? "" : " ", kept.error().message);
       }
     }
     AnyDetector detector = make_detector(config.touch.detector, *calibration, background);

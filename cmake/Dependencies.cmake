@@ -17,6 +17,10 @@ pkg_check_modules(libsystemd REQUIRED IMPORTED_TARGET libsystemd)
 pkg_check_modules(libevdev REQUIRED IMPORTED_TARGET libevdev)
 pkg_check_modules(liblo REQUIRED IMPORTED_TARGET liblo)
 pkg_check_modules(libjpeg REQUIRED IMPORTED_TARGET libjpeg)
+pkg_check_modules(xcb REQUIRED IMPORTED_TARGET xcb xcb-shm xcb-damage xcb-xfixes xcb-randr xcb-composite xcb-shape
+  xcb-keysyms)
+pkg_check_modules(pipewire REQUIRED IMPORTED_TARGET libpipewire-0.3)
+pkg_check_modules(sdbus REQUIRED IMPORTED_TARGET sdbus-c++)
 pkg_check_modules(libpng REQUIRED IMPORTED_TARGET libpng)
 
 find_library(XNNPACK_LIBRARY XNNPACK REQUIRED)

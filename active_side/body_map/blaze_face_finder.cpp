@@ -193,9 +193,10 @@ Result<std::unique_ptr<FaceFinder>> make_blaze_face_finder(const std::vector<fs:
   std::ifstream file(*found, std::ios::binary);
   const std::string bytes{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
   if (sha256_of(bytes) != model_sha256) {
-    return Error{fmt::format("{} can't be read or is not the face model that belongs to telehug (its SHA-256 differs); "
-                             "install telehug again.",
-                             found->string())};
+    return Error{
+        fmt::format("{} can't be read or is not the face model that belongs to telehug (its SHA-256 differs); "
+                    "install telehug again.",
+                    found->string())};
   }
   try {
     cv::dnn::Net net = cv::dnn::readNetFromONNX(bytes.data(), bytes.size());

@@ -25,7 +25,7 @@ const BodyMap& BodyMapStep::run() {
 }
 
 const BodyMap& BodyMapStep::search() {
-  const auto scale = make_screen_scale(config_.screen, picture_.desktop);
+  const auto scale = make_screen_scale(config_.screen, picture_.monitor);
   if (!scale) {
     return lose(scale.error().message);
   }

@@ -6,7 +6,7 @@
 #include "body_map/body_map_tracker.hpp"
 #include "body_map/choose_remote_face.hpp"
 #include "body_map/face_finder.hpp"
-#include "body_map/screen_grabber.hpp"
+#include "screen/screen_grabber.hpp"
 
 namespace telehug {
 

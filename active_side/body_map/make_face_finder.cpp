@@ -15,8 +15,8 @@ Result<ChosenFaceFinder> make_face_finder(const std::string& name,
   if (name != "haar") {
     auto blaze = make_blaze_face_finder(blaze_models);
     if (blaze) return ChosenFaceFinder{*std::move(blaze), ""};
-    chosen.note = fmt::format("{} Until then faces are looked for with Haar, which misses more of them.",
-                              blaze.error().message);
+    chosen.note =
+        fmt::format("{} Until then faces are looked for with Haar, which misses more of them.", blaze.error().message);
   }
   auto haar = make_haar_face_finder();
   if (!haar) return chosen.note.empty() ? haar.error() : Error{chosen.note + " " + haar.error().message};

@@ -16,7 +16,7 @@ struct ChosenFaceFinder {
 
 // `name`: blaze or haar. Where blaze can't be had the thesis' haar is taken instead, which sees fewer faces and takes
 // longer. The error says why there is none at all.
-Result<ChosenFaceFinder> make_face_finder(const std::string& name,
-                                          const std::vector<std::filesystem::path>& blaze_models = known_blaze_models());
+Result<ChosenFaceFinder> make_face_finder(
+    const std::string& name, const std::vector<std::filesystem::path>& blaze_models = known_blaze_models());
 
 }  // namespace telehug

@@ -5,9 +5,9 @@
 
 #include "body_map/body_map_step.hpp"
 #include "body_map/draw_body_map.hpp"
-#include "body_map/picture_grabber.hpp"
 #include "body_map/vitruvian_grid.hpp"
 #include "pictures/picture_file.hpp"
+#include "screen/picture_grabber.hpp"
 
 namespace telehug {
 

@@ -7,8 +7,8 @@
 #include <string>
 
 #include "body_map/choose_remote_face.hpp"
-#include "body_map/picture_files.hpp"
 #include "pictures/picture_file.hpp"
+#include "screen/picture_files.hpp"
 
 namespace telehug {
 namespace fs = std::filesystem;

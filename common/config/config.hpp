@@ -54,7 +54,7 @@ struct LocalTouchConfig {
 };
 
 struct BodyMapConfig {
-  std::string picture;        // file or folder
+  std::string picture;         // file or folder
   std::string face = "blaze";  // blaze, haar
   double rate_hz = 8;
   int hold_ms = 1500;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "body_map/screen_grabber.hpp"
+#include "screen/screen_grabber.hpp"
 
 namespace telehug {
 
@@ -16,13 +16,16 @@ class PlannedScreenGrabber final : public ScreenGrabber {
       filled = picture;
     }
     filled.time = picture.time;
+    filled.in_front = picture.in_front;
     return outcome;
   }
+  [[nodiscard]] bool is_live() const override { return live; }
   [[nodiscard]] std::string name() const override { return "planned"; }
   [[nodiscard]] std::string last_error() const override { return "The screen is gone."; }
 
   ScreenPicture picture;
   GrabOutcome outcome = GrabOutcome::changed;
+  bool live = false;
 };
 
 }  // namespace telehug

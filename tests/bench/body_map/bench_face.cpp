@@ -59,7 +59,7 @@ cv::Mat on_screen(const cv::Mat& chat, cv::Size size) {
 void bench_size(Figures& figures, FaceFinder& finder, const cv::Mat& chat, cv::Size size, int rounds) {
   PlannedScreenGrabber grabber;
   grabber.picture.bgr = on_screen(chat, size);
-  grabber.picture.desktop = {.width_px = size.width, .height_px = size.height};
+  grabber.picture.monitor = {.width_px = size.width, .height_px = size.height};
   BodyMapStep step(grabber, finder,
                    {.screen = {.width_mm = 480, .height_mm = 300, .width_px = size.width, .height_px = size.height},
                     .rules = {},

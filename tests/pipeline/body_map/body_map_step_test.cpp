@@ -4,11 +4,11 @@
 #include <gmock/gmock.h>
 
 #include "body_map/haar_face_finder.hpp"
-#include "body_map/picture_grabber.hpp"
 #include "body_map/vitruvian_grid.hpp"
 #include "doubles/fake_clock.hpp"
 #include "doubles/planned_face_finder.hpp"
 #include "doubles/planned_screen_grabber.hpp"
+#include "screen/picture_grabber.hpp"
 
 namespace telehug {
 namespace {
@@ -24,8 +24,9 @@ class BodyMapStepTest : public testing::Test {
   BodyMapStepTest() {
     grabber.picture = {.bgr = cv::Mat(600, 700, CV_8UC3, cv::Scalar(0, 0, 0)),
                        .origin_px = {100, 40},
-                       .desktop = {.width_px = 800, .height_px = 800},
-                       .time = from_ns(1'000'000'000)};
+                       .monitor = {.width_px = 800, .height_px = 800},
+                       .time = from_ns(1'000'000'000),
+                       .in_front = {}};
   }
   void look(GrabOutcome outcome, Duration later = 125ms) {
     grabber.outcome = outcome;

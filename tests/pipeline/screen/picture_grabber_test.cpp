@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "body_map/picture_grabber.hpp"
+#include "screen/picture_grabber.hpp"
 
 #include <gmock/gmock.h>
 
@@ -37,8 +37,8 @@ TEST_F(PictureGrabberTest, GivesAPictureOnceAndThenSaysThatItStandsStill) {
   EXPECT_EQ(grabber.grab(picture), GrabOutcome::changed);
   EXPECT_EQ(shade_of(picture), 10);
   EXPECT_EQ(picture.origin_px, cv::Point(0, 0));
-  EXPECT_EQ(picture.desktop.width_px, 64);
-  EXPECT_EQ(picture.desktop.height_px, 48);
+  EXPECT_EQ(picture.monitor.width_px, 64);
+  EXPECT_EQ(picture.monitor.height_px, 48);
   EXPECT_EQ(picture.time, clock.now());
 
   clock.advance(125ms);
@@ -106,7 +106,7 @@ TEST_F(PictureGrabberTest, LooksOnlyAtTheView) {
   ASSERT_EQ(grabber.grab(picture), GrabOutcome::changed);
   EXPECT_EQ(picture.bgr.size(), cv::Size(30, 10));
   EXPECT_EQ(picture.origin_px, cv::Point(20, 30));
-  EXPECT_EQ(picture.desktop.width_px, 64);
+  EXPECT_EQ(picture.monitor.width_px, 64);
 }
 
 TEST_F(PictureGrabberTest, CutsAViewThatReachesPastThePicture) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "body_map/picture_grabber.hpp"
+#include "screen/picture_grabber.hpp"
 
 #include <fmt/format.h>
 
@@ -8,8 +8,8 @@
 #include <system_error>
 #include <utility>
 
-#include "body_map/picture_files.hpp"
 #include "pictures/picture_file.hpp"
+#include "screen/picture_files.hpp"
 
 namespace telehug {
 namespace fs = std::filesystem;
@@ -89,7 +89,8 @@ GrabOutcome PictureGrabber::grab(ScreenPicture& picture) {
   }
   picture.bgr = (*read)(cv::Rect(seen));
   picture.origin_px = cv::Rect(seen).tl();
-  picture.desktop = {.width_px = whole.width, .height_px = whole.height};
+  picture.monitor = {.width_px = whole.width, .height_px = whole.height};
+  picture.in_front.reset();
   shown_ = std::move(stamp);
   return GrabOutcome::changed;
 }

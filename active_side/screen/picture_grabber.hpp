@@ -7,7 +7,7 @@
 #include <optional>
 #include <vector>
 
-#include "body_map/screen_grabber.hpp"
+#include "screen/screen_grabber.hpp"
 
 namespace telehug {
 
@@ -17,7 +17,7 @@ struct PictureGrabberConfig {
   std::optional<cv::Rect> view;  // the part to look at, px of the picture; none: the whole picture
 };
 
-// Takes a picture for the screen: each picture is a whole desktop. A file is read again only when its time or size
+// Takes a picture for the screen: each picture is a whole monitor. A file is read again only when its time or size
 // changes, so a picture that stands still costs one stat() a grab.
 class PictureGrabber final : public ScreenGrabber {
  public:
@@ -27,6 +27,7 @@ class PictureGrabber final : public ScreenGrabber {
   void close() override;
   [[nodiscard]] bool is_open() const override { return open_; }
   GrabOutcome grab(ScreenPicture& picture) override;
+  [[nodiscard]] bool is_live() const override { return false; }
   [[nodiscard]] std::string name() const override;
   [[nodiscard]] std::string last_error() const override { return last_error_; }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "body_map/picture_files.hpp"
+#include "screen/picture_files.hpp"
 
 #include <fmt/format.h>
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <opencv2/core/mat.hpp>
+#include <optional>
 #include <string>
 
 #include "common/clock.hpp"
@@ -10,18 +11,21 @@
 
 namespace telehug {
 
-// The part of the desktop in which the remote person is looked for: a screen, a window, or a rectangle of it. Its
-// bottom is where the grid of boxes ends. Pixels of the desktop: origin at its top-left corner, x right, y down.
+// The part of the rig's monitor in which the remote person is looked for: all of it, a window, or a rectangle. Its
+// bottom is where the grid of boxes ends. Pixels of the monitor: origin at its top-left corner, x right, y down; real
+// ones, as many as the monitor shows, whatever scale the desktop draws at.
 struct ScreenPicture {
-  cv::Mat bgr;          // CV_8UC3; shares its pixels with the grabber and holds until the next grab
-  cv::Point origin_px;  // where the picture's top-left corner lies on the desktop
-  ImageSize desktop;    // what origin_px and the picture's own pixels are counted in
+  cv::Mat bgr;          // CV_8UC3, or CV_8UC4 with an undefined fourth; shares its pixels with the grabber and holds
+                        // until its next call
+  cv::Point origin_px;  // where the picture's top-left corner lies on the monitor; within it
+  ImageSize monitor;    // what origin_px and the picture's own pixels are counted in
   Timestamp time;       // when the screen was looked at
+  std::optional<bool> in_front;  // does the pinned window lie in front of the others? none: no window is pinned
 };
 
 enum class GrabOutcome {
   changed,    // the picture was filled anew
-  unchanged,  // the screen shows what it showed at the last grab: only `time` was set
+  unchanged,  // the screen shows what it showed at the last grab: only `time` and `in_front` were set
   lost,       // there is no picture now; `time` was set, last_error() says why, a later grab may succeed
 };
 
@@ -43,10 +47,13 @@ class ScreenGrabber {
   // `lost`. `lost` if not open.
   virtual GrabOutcome grab(ScreenPicture& picture) = 0;
 
+  // Does it show what happens now, so that somebody who never moves is a picture of somebody? Files don't.
+  [[nodiscard]] virtual bool is_live() const = 0;
+
   // What status calls this grabber: "picture FILE".
   [[nodiscard]] virtual std::string name() const = 0;
 
-  // One sentence about the newest `lost`; empty if there was none.
+  // One sentence about the newest `lost`, with what to do; empty if there was none.
   [[nodiscard]] virtual std::string last_error() const = 0;
 };
 
