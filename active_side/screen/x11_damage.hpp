@@ -22,16 +22,16 @@ class X11Damage {
   // Notes what an event says of this window; false if it is about something else.
   bool note(const xcb_generic_event_t& event);
 
-  // What was drawn in since the last call, px of the window; the first call returns the whole window. Costs nothing if
-  // no event was noted.
-  std::vector<cv::Rect> take();
+  // What was drawn in since the last call, px of the window; the first call returns all of it. Only where it touches
+  // `watched_px` must the server be waited for.
+  std::vector<cv::Rect> take(const cv::Rect& watched_px);
 
  private:
   const X11Connection& connection_;
   std::uint8_t first_event_ = 0;
   xcb_damage_damage_t damage_ = 0;
   xcb_xfixes_region_t parts_ = 0;
-  bool noted_ = false;
+  cv::Rect noted_px_;  // spans what the events told of
 };
 
 }  // namespace telehug

@@ -219,9 +219,9 @@ Status X11Watch::place_view(const X11WindowPlace& place) {
 
 std::vector<cv::Rect> X11Watch::take_damage() {
   if (root_damage_) {
-    return root_damage_->take();
+    return root_damage_->take(view_.part_px);
   }
-  return pinned_ ? pinned_->damage().take() : std::vector<cv::Rect>{};
+  return pinned_ ? pinned_->damage().take(view_.part_px) : std::vector<cv::Rect>{};
 }
 
 cv::Mat X11Watch::read() {

@@ -43,7 +43,8 @@ class X11Watch {
   // Makes the next look() search anew.
   void forget_place() noexcept { places_stale_ = true; }
 
-  // What was drawn in since the last call, px of the window that look() found.
+  // What was drawn in since the last call, px of the window that look() found. Empty if the view
+  // was not touched.
   std::vector<cv::Rect> take_damage();
 
   // The pixels of the view that look() returned last: CV_8UC4, B G R and an undefined byte, valid until the next
