@@ -7,4 +7,5 @@ telehug_test(test_face_pipeline KIND pipeline SUBJECT face
 telehug_test(test_screen KIND pipeline SUBJECT face
   SOURCES pipeline/screen/frame_grabber_test.cpp pipeline/screen/picture_grabber_test.cpp
     pipeline/screen/recorded_screen_grabber_test.cpp pipeline/screen/screen_recorder_test.cpp
-  DEPS active_screen active_capture telehug_pictures)
+    pipeline/screen/screen_recording_test.cpp
+  DEPS active_screen active_capture telehug_pictures fmt::fmt)
