@@ -65,7 +65,6 @@ GrabOutcome RecordedScreenGrabber::grab(ScreenPicture& picture) {
 }
 
 GrabOutcome RecordedScreenGrabber::lose(std::string why) {
-  shown_.reset();
   last_error_ = std::move(why);
   return GrabOutcome::lost;
 }

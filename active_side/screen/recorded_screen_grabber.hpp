@@ -35,7 +35,7 @@ class RecordedScreenGrabber final : public ScreenGrabber {
   bool open_ = false;
   Timestamp opened_;
   std::vector<RecordedScreenPicture> pictures_;  // not empty while open
-  std::optional<std::size_t> shown_;             // none after `lost`
+  std::optional<std::size_t> shown_;             // the newest; none since open()
   std::string last_error_;
 };
 

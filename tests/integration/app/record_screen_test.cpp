@@ -18,13 +18,9 @@ using testing::Not;
 class RecordScreen : public testing::Test {
  protected:
   [[nodiscard]] std::vector<std::string> command(std::vector<std::string> options) const {
-    std::vector<std::string> words{std::string(TELEHUG_BIN) + "/telehug-active",
-                                   "record",
-                                   recording.string(),
-                                   "--config",
-                                   "/dev/null",
-                                   "--source",
-                                   "replay:" TELEHUG_FIXTURES "/rig2"};
+    const std::string program = TELEHUG_BIN "/telehug-active";
+    const std::string camera = "replay:" TELEHUG_FIXTURES "/rig2";
+    std::vector<std::string> words{program, "record", recording.string(), "--config", "/dev/null", "--source", camera};
     for (const char* key : {"rig.screen_width_mm=380", "rig.screen_height_mm=300", "rig.screen_width_px=1280",
                             "rig.screen_height_px=1024"}) {
       options.insert(options.end(), {"--set", key});
