@@ -4,6 +4,7 @@
 #include <xcb/shape.h>
 #include <xcb/xcb.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <cstdlib>
@@ -83,6 +84,22 @@ class X11Client {
     const xcb_rectangle_t rectangle{x, y, width, height};
     xcb_create_gc(connection_, context, window, XCB_GC_FOREGROUND, &colour);
     xcb_poly_fill_rectangle(connection_, window, context, 1, &rectangle);
+    xcb_free_gc(connection_, context);
+    sync();
+  }
+
+  // `bgrx`: CV_8UC4, continuous; in parts that are as large as a request may be.
+  void draw(xcb_window_t window, const cv::Point& corner_px, const cv::Mat& bgrx) {
+    const xcb_gcontext_t context = xcb_generate_id(connection_);
+    xcb_create_gc(connection_, context, window, 0, nullptr);
+    const int row_bytes = bgrx.cols * 4;
+    const int rows_a_part = std::max(1, 200'000 / row_bytes);
+    for (int row = 0; row < bgrx.rows; row += rows_a_part) {
+      const cv::Mat part = bgrx.rowRange(row, std::min(row + rows_a_part, bgrx.rows));
+      const auto [x, y, width, height] = words({corner_px.x, corner_px.y + row, part.cols, part.rows});
+      xcb_put_image(connection_, XCB_IMAGE_FORMAT_Z_PIXMAP, window, context, width, height, x, y, 0,
+                    screen_->root_depth, static_cast<std::uint32_t>(row_bytes * part.rows), part.data);
+    }
     xcb_free_gc(connection_, context);
     sync();
   }

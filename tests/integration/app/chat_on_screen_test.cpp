@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// A video chat in a window of a real X server, both daemons, the simulated jacket: touches go out only while they are
+// meant for the person in that window, and whatever happens to the screen is told and mended by itself.
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <cstdlib>
+#include <opencv2/imgproc.hpp>
+#include <thread>
+
+#include "doubles/x11_client.hpp"
+#include "doubles/xvfb.hpp"
+#include "integration/app/running_pair.hpp"
+#include "pictures/picture_file.hpp"
+
+namespace telehug {
+namespace {
+
+const cv::Rect screen_px(0, 0, 1280, 1024);
+
+cv::Mat chat_picture() {
+  const auto picture = read_picture(TELEHUG_FIXTURES "/chat/01_full.jpg");
+  if (!picture) throw std::runtime_error(picture.error().message);
+  cv::Mat bgrx;
+  cv::cvtColor(*picture, bgrx, cv::COLOR_BGR2BGRA);
+  cv::resize(bgrx, bgrx, screen_px.size());
+  return bgrx;
+}
+
+// A window as large as the screen in which somebody moves a little all the time.
+class Chat {
+ public:
+  explicit Chat(const std::string& display) : client_(display) {
+    X11WindowPlan plan;
+    plan.place_px = screen_px;
+    plan.title = "Video chat with Ada";
+    window_ = client_.open(plan);
+    thread_ = std::thread([this] { talk(); });
+  }
+  ~Chat() {
+    ending_ = true;
+    thread_.join();
+  }
+
+  [[nodiscard]] xcb_window_t window() const { return window_; }
+
+ private:
+  void talk() {
+    const cv::Mat still = chat_picture();
+    for (int shade = 0; !ending_; shade = (shade + 7) % 21) {
+      client_.draw(window_, {0, 0}, still + cv::Scalar::all(shade));
+      std::this_thread::sleep_for(100ms);
+    }
+  }
+
+  X11Client client_;
+  xcb_window_t window_ = 0;
+  std::atomic<bool> ending_ = false;
+  std::thread thread_;
+};
+
+class ChatOnScreen : public testing::Test {
+ protected:
+  ChatOnScreen() {
+    setenv("DISPLAY", xvfb.display().c_str(), 1);
+    pair.calibrate("replay:" TELEHUG_FIXTURES "/rig2");
+    pair.active_settings.emplace_back("body_map.source=x11");
+  }
+
+  void pin_the_chat() { pair.active_settings.emplace_back("body_map.window=video chat"); }
+  void start_all() {
+    pair.start_jacket();
+    pair.start_passive();
+    pair.start_active();
+  }
+  [[nodiscard]] bool becomes_felt() const {
+    return eventually([&] { return pair.felt(); });
+  }
+  // Nothing is felt any more, and not because nobody touches.
+  [[nodiscard]] bool is_withheld_because(const std::string& why) const {
+    return eventually([&] {
+      const auto status = pair.status(Side::active);
+      return !pair.felt() && status.is_object() && status.at("sending").value("why", "") == why;
+    });
+  }
+  [[nodiscard]] Outcome send(const std::string& mode) const {
+    return pair.run({TELEHUG_BIN "/telehug", "send", mode, "--socket", pair.socket(Side::active).string()});
+  }
+
+  Xvfb xvfb{"1280x1024x24"};
+  RunningPair pair;
+};
+
+TEST_F(ChatOnScreen, IsFeltOnlyWhileThePinnedWindowIsInFront) {
+  X11Client others(xvfb.display());
+  const Chat chat(xvfb.display());
+  pin_the_chat();
+  start_all();
+  ASSERT_TRUE(becomes_felt()) << pair.logs();
+
+  X11WindowPlan letter;
+  letter.place_px = {100, 100, 900, 800};
+  const xcb_window_t covering = others.open(letter);
+  EXPECT_TRUE(is_withheld_because("another window covers the pinned one")) << pair.logs();
+  EXPECT_TRUE(pair.camera_open()) << "the chat may be back at once";
+
+  others.close(covering);
+  EXPECT_TRUE(becomes_felt()) << pair.logs();
+}
+
+TEST_F(ChatOnScreen, IsNotFeltFromAScreenWithoutAPinnedWindowUntilSendingIsSwitchedOn) {
+  const Chat chat(xvfb.display());
+  start_all();
+  ASSERT_TRUE(eventually([&] { return pair.counter(Side::active, "touches_withheld") > 0; })) << pair.logs();
+  EXPECT_TRUE(is_withheld_because("no window is pinned"));
+  EXPECT_TRUE(eventually([&] { return pair.complains(Side::active, "touches don't go out"); })) << pair.logs();
+  EXPECT_EQ(pair.counter(Side::passive, "events_received"), 0U);
+
+  EXPECT_EQ(send("on").code, 0);
+  EXPECT_TRUE(becomes_felt()) << pair.logs();
+
+  EXPECT_EQ(send("off").code, 0);
+  EXPECT_TRUE(is_withheld_because("switched off"));
+  EXPECT_TRUE(eventually([&] { return !pair.camera_open(); })) << "nobody needs it";
+
+  EXPECT_EQ(send("on").code, 0);
+  EXPECT_TRUE(becomes_felt()) << pair.logs();
+}
+
+TEST_F(ChatOnScreen, IsFeltAgainWhenTheWindowIsBack) {
+  X11Client others(xvfb.display());
+  const Chat chat(xvfb.display());
+  pin_the_chat();
+  start_all();
+  ASSERT_TRUE(becomes_felt()) << pair.logs();
+
+  others.unmap(chat.window());
+  EXPECT_TRUE(eventually([&] { return !pair.felt() && pair.complains(Side::active, "video chat"); })) << pair.logs();
+  others.map(chat.window());
+  EXPECT_TRUE(becomes_felt()) << pair.logs();
+}
+
+TEST_F(ChatOnScreen, IsFeltAgainWhenTheXServerIsBack) {
+  auto chat = std::make_unique<Chat>(xvfb.display());
+  pin_the_chat();
+  start_all();
+  ASSERT_TRUE(becomes_felt()) << pair.logs();
+
+  chat.reset();
+  xvfb.stop();
+  EXPECT_TRUE(eventually([&] { return !pair.felt() && pair.complains(Side::active, xvfb.display()); })) << pair.logs();
+  xvfb.start();
+  chat = std::make_unique<Chat>(xvfb.display());
+  EXPECT_TRUE(becomes_felt()) << pair.logs();
+}
+
+TEST_F(ChatOnScreen, IsToldWhenThereIsNoDisplay) {
+  unsetenv("DISPLAY");
+  start_all();
+  EXPECT_TRUE(eventually([&] { return pair.complains(Side::active, "DISPLAY"); })) << pair.logs();
+  EXPECT_EQ(pair.counter(Side::active, "events_published"), 0U);
+}
+
+TEST_F(ChatOnScreen, FollowsTheFaceThatAPersonChooses) {
+  const Chat chat(xvfb.display());
+  pin_the_chat();
+  start_all();
+  ASSERT_TRUE(becomes_felt()) << pair.logs();
+  const auto order = [&](const char* what) {
+    return pair.run({TELEHUG_BIN "/telehug", "face", what, "--socket", pair.socket(Side::active).string()});
+  };
+  const Outcome next = order("next");
+  EXPECT_NE(next.code, 0);
+  EXPECT_NE(next.text.find("no other face is seen"), std::string::npos) << next.text;
+  EXPECT_EQ(order("pin").code, 0);
+  EXPECT_TRUE(eventually([&] { return pair.status(Side::active).at("face").at("pinned") == true; })) << pair.logs();
+  EXPECT_EQ(order("unpin").code, 0);
+  EXPECT_TRUE(eventually([&] { return pair.status(Side::active).at("face").at("pinned") == false; })) << pair.logs();
+}
+
+}  // namespace
+}  // namespace telehug

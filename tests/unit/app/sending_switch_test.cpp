@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sending_switch.hpp"
+
+#include <gtest/gtest.h>
+
+namespace telehug {
+namespace {
+
+using enum SendingMode;
+using enum SendingVerdict;
+
+const ScreenView file{.live = false, .in_front = {}};
+const ScreenView whole_screen{.live = true, .in_front = {}};
+const ScreenView in_front{.live = true, .in_front = true};
+const ScreenView behind{.live = true, .in_front = false};
+
+TEST(SendingSwitch, SendsNothingWhenItIsOff) {
+  for (const ScreenView& screen : {file, whole_screen, in_front, behind})
+    EXPECT_EQ(judge_sending(off, true, screen), switched_off);
+}
+
+TEST(SendingSwitch, SendsByItselfOnlyWhileThePinnedWindowIsInFront) {
+  EXPECT_EQ(judge_sending(automatic, true, in_front), sends);
+  EXPECT_EQ(judge_sending(automatic, true, behind), covered);
+  EXPECT_EQ(judge_sending(automatic, true, whole_screen), never_pinned);
+}
+
+TEST(SendingSwitch, SendsFromAFileByItself) {
+  EXPECT_EQ(judge_sending(automatic, true, file), sends);
+}
+
+TEST(SendingSwitch, SendsFromAWholeScreenWhenItIsOn) {
+  EXPECT_EQ(judge_sending(on, true, whole_screen), sends);
+}
+
+TEST(SendingSwitch, SendsNothingFromBehindAnotherWindowUnlessThatIsAllowed) {
+  EXPECT_EQ(judge_sending(on, true, behind), covered);
+  EXPECT_EQ(judge_sending(on, false, behind), sends);
+  EXPECT_EQ(judge_sending(automatic, false, behind), sends);
+}
+
+TEST(SendingSwitch, BeginsAsConfiguredAndOffWhenThatMeansNothing) {
+  EXPECT_EQ(SendingSwitch("auto", true).mode(), automatic);
+  EXPECT_EQ(SendingSwitch("on", true).mode(), on);
+  EXPECT_EQ(SendingSwitch("off", true).mode(), off);
+  EXPECT_EQ(SendingSwitch("nonsense", true).mode(), off);
+}
+
+TEST(SendingSwitch, TogglesBetweenOffAndByItself) {
+  SendingSwitch sending("on", true);
+  sending.toggle();
+  EXPECT_EQ(sending.mode(), off);
+  sending.toggle();
+  EXPECT_EQ(sending.mode(), automatic);
+}
+
+}  // namespace
+}  // namespace telehug
