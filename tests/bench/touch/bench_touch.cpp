@@ -12,7 +12,6 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
-#include <nlohmann/json.hpp>
 #include <opencv2/core.hpp>
 #include <stdexcept>
 #include <string>
@@ -22,6 +21,7 @@
 
 #include "bench/touch/default_figures.hpp"
 #include "bench/touch/figure.hpp"
+#include "bench/touch/print_figures.hpp"
 #include "bench/touch/thesis_figures.hpp"
 #include "doubles/allocation_counter.hpp"
 #include "pictures/jpeg_decoder.hpp"
@@ -44,23 +44,6 @@ Figure measure_jpeg(const std::filesystem::path& picture) {
     figure.samples.push_back(watch.lap_ms());
   }
   return figure;
-}
-
-void print_and_write(const Figures& figures, const std::string& json_file) {
-  nlohmann::json json;
-  fmt::print("{:<56}{:>10}{:>10}{:>10}\n", "", "p10", "p50", "p99");
-  for (const Figure& figure : figures) {
-    const double p10 = figure.percentile(0.1);
-    const double p50 = figure.percentile(0.5);
-    const double p99 = figure.percentile(0.99);
-    fmt::print("{:<56}{:>10.4f}{:>10.4f}{:>10.4f} {}\n", figure.name, p10, p50, p99, figure.unit);
-    json[figure.name] = {{"p50", p50}, {"p99", p99}, {"unit", figure.unit}};
-  }
-  if (json_file.empty()) return;
-  std::ofstream out(json_file);
-  out << json.dump(2) << '\n';
-  out.close();
-  if (!out) throw std::runtime_error("can't write " + json_file);
 }
 
 void run(const std::string& json_file) {

@@ -1,76 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bench/touch/default_figures.hpp"
 
-#include <array>
-#include <cstdint>
-#include <stdexcept>
 #include <utility>
 
 #include "bench/touch/detector_stages.hpp"
+#include "bench/touch/drawn_touches.hpp"
 #include "bench/touch/mjpeg_figures.hpp"
-#include "bench/touch/touch_path.hpp"
-#include "calibration/border_curve.hpp"
-#include "calibration/rig_model.hpp"
-#include "capture/virtual_rig/random_frame.hpp"
-#include "capture/virtual_rig/random_rig.hpp"
-#include "capture/virtual_rig/rig_renderer.hpp"
 #include "detection/rows_needed.hpp"
-#include "doubles/perfect_calibration.hpp"
-#include "finger/finger_detector.hpp"
 #include "finger/picture_scale.hpp"
 
 namespace telehug {
-namespace {
-
-constexpr std::uint64_t rig_seed = 11;
-constexpr int pictures = 24;
-
-// Five fingers: two of the left hand, two of the right hand, and one of somebody between them.
-std::vector<HandPose> hands(const RandomRig& rig, int fingers, std::uint64_t seed) {
-  if (fingers == 1) return random_frame(rig, FrameKind::touch, seed).hands;
-  const ScreenSize& screen = rig.settings.screen;
-  std::vector<HandPose> all;
-  for (const double place : {0.3, 0.5, 0.7}) {
-    HandLooks looks = rig.users.front();
-    looks.left = place < 0.5;
-    const ScreenPoint point{place * screen.width_mm, (0.72 + 0.04 * static_cast<double>(seed % 5)) * screen.height_mm};
-    HandPose hand = random_pose(rig.settings, looks, {point, 0}, seed);
-    hand.lean_deg = 0;
-    if (place != 0.5) hand.second = FingerPlace{{point.x_mm + (looks.left ? -28 : 28), point.y_mm}, 0};
-    all.push_back(hand);
-  }
-  return all;
-}
-
-}  // namespace
 
 Figures measure_default(ImageSize image, int fingers, const std::string& suffix) {
-  const RandomRig rig = random_rig(rig_seed, image);
-  RigRenderer renderer(rig.settings);
-  cv::Mat empty;
-  renderer.draw(std::vector<HandPose>{}, 0, empty);
-  const RigCamera camera = camera_of(rig.settings);
-  const BorderCurve border(camera, rig.settings.screen);
-  const BorderStrip::Layout layout(border, image);
-  BorderStrip background(layout);
-  background.sample(empty, layout);
-  FingerDetector detector(border, image, background, camera);
-
-  TouchedRig touched{image, rig.settings.screen, RigModel{camera, 5}, {}};
-  const auto wanted = static_cast<std::size_t>(fingers);
-  constexpr std::uint64_t most_tries = 200;
-  for (std::uint64_t seed = 1; seed < most_tries && touched.pictures.size() < pictures; ++seed) {
-    cv::Mat picture;
-    renderer.draw(hands(rig, fingers, seed), seed, picture);
-    if (detector.detect(picture).size() == wanted) touched.pictures.push_back(std::move(picture));
-  }
-  if (touched.pictures.size() < pictures) throw std::runtime_error("too few pictures with all fingers in them");
-
-  const RowRange rows = rows_needed(border, image, px_per_mm_at_border(camera, border, image));
-  Figures figures = measure_path(detector, touched, "", suffix);
-  for (Figure& figure : measure_stages(border, camera, empty, touched.pictures, suffix))
+  DrawnTouches drawn(image, fingers);
+  const RowRange rows = rows_needed(drawn.border, image, px_per_mm_at_border(drawn.camera, drawn.border, image));
+  Figures figures = measure_path(drawn.detector, drawn.touched, "", suffix);
+  for (Figure& figure : measure_stages(drawn.border, drawn.camera, drawn.empty, drawn.touched.pictures, suffix))
     figures.push_back(std::move(figure));
-  for (Figure& figure : measure_mjpeg(detector, rows, touched, suffix))
+  for (Figure& figure : measure_mjpeg(drawn.detector, rows, drawn.touched, suffix))
     figures.push_back(std::move(figure));
   return figures;
 }
