@@ -42,6 +42,7 @@ Result<std::unique_ptr<ScreenGrabber>> make_screen_grabber(const ActiveConfig& c
   using Grabber = std::unique_ptr<ScreenGrabber>;
   switch (resolve(source->kind, map)) {
     case ScreenSourceKind::picture: {
+      if (map.picture.empty()) return Error{"which picture shows the remote person? Set body_map.picture"};
       PictureGrabberConfig picture;
       picture.path = map.picture;
       picture.view = rect_of(*region);

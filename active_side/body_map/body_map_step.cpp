@@ -3,8 +3,6 @@
 
 #include <utility>
 
-#include "body_map/screen_scale.hpp"
-
 namespace telehug {
 namespace {
 
@@ -64,7 +62,7 @@ void BodyMapStep::notice_another_view() {
 }
 
 const BodyMap& BodyMapStep::lay(const std::optional<FollowedFace>& followed) {
-  const auto scale = make_screen_scale(config_.screen, view_monitor_);
+  const auto scale = this->scale();
   if (!scale) {
     problem_ = scale.error().message;
     return tracker_.update(picture_.time, std::nullopt, {});
@@ -82,6 +80,11 @@ const BodyMap& BodyMapStep::lay(const std::optional<FollowedFace>& followed) {
     problem_ = "A face is seen in the video chat, but nothing of the body below it.";
   }
   return map;
+}
+
+Result<ScreenScale> BodyMapStep::scale() const {
+  if (!config_.screen) return ScreenScale{.mm_per_px_x = 1, .mm_per_px_y = 1};
+  return make_screen_scale(*config_.screen, view_monitor_);
 }
 
 const BodyMap& BodyMapStep::lose(std::string why) {

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "body_map/body_map_tracker.hpp"
+#include "body_map/screen_scale.hpp"
 #include "face/face_finder.hpp"
 #include "face/remote_face_follower.hpp"
 #include "screen/screen_grabber.hpp"
@@ -12,7 +13,7 @@
 namespace telehug {
 
 struct BodyMapStepConfig {
-  ScreenSize screen;  // mm; its pixels are the grabber's business
+  std::optional<ScreenSize> screen;  // mm; its pixels are the grabber's business. None: one of 1 mm a pixel
   RemoteFaceRules rules;
   BodyMapTrackerConfig tracker;
   bool mirrored = false;  // the picture shows the remote person as in a mirror
@@ -39,6 +40,9 @@ class BodyMapStep {
 
   // Pixels of the monitor that was last looked at; 0x0 at first.
   [[nodiscard]] ImageSize monitor() const { return picture_.monitor; }
+
+  // Of that monitor. Fails if the screen has no size.
+  [[nodiscard]] Result<ScreenScale> scale() const;
 
   // By hand: whom to follow. Between runs.
   [[nodiscard]] RemoteFaceFollower& follower() { return follower_; }

@@ -16,23 +16,18 @@ Result<ShownBoxes> show_boxes(const ShowBoxesOptions& options, FaceFinder& finde
   if (!picture) {
     return picture.error();
   }
-  // A screen of 1 mm a pixel, so that the map's millimetres are the picture's pixels.
-  const ScreenScale scale{.mm_per_px_x = 1, .mm_per_px_y = 1};
-  const ScreenSize screen{.width_mm = static_cast<double>(picture->cols),
-                          .height_mm = static_cast<double>(picture->rows),
-                          .width_px = picture->cols,
-                          .height_px = picture->rows};
   const SteadyClock clock;
   PictureGrabber grabber({.path = options.picture, .view = options.view}, clock);
   if (const Status opened = grabber.open(); !opened) {
     return opened.error();
   }
-  BodyMapStep step(grabber, finder, {.screen = screen, .rules = {}, .tracker = {}, .mirrored = false});
+  BodyMapStep step(grabber, finder, {.screen = {}, .rules = {}, .tracker = {}, .mirrored = false});
   const BodyMap& map = step.run();
   if (map.version == 0) {
     return Error{fmt::format("{}: {}", options.picture.string(), step.problem())};
   }
 
+  const ScreenScale scale{.mm_per_px_x = 1, .mm_per_px_y = 1};  // the screen is not known: 1 mm a pixel
   std::uint16_t touched = options.touched.value_or(0);
   const int boxes = map.shape.columns * map.shape.rows;
   if (options.touched && (touched < 1 || touched > boxes)) {

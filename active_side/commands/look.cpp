@@ -8,7 +8,6 @@
 #include <thread>
 
 #include "body_map/body_map_step.hpp"
-#include "body_map/screen_scale.hpp"
 #include "calibration/calibration_file.hpp"
 #include "commands/config_options.hpp"
 #include "config/places.hpp"
@@ -25,10 +24,9 @@ struct Options {
   double seconds = 0;
 };
 
-// Where nobody has measured the screen, one of 1 mm a pixel does: only pixels are printed.
+// Where nobody has measured the screen, one of 1 mm a pixel does as well: only pixels are printed.
 BodyMapStepConfig step_config(const ActiveConfig& config) {
   BodyMapStepConfig step;
-  step.screen = {.width_mm = 1000, .height_mm = 1000, .width_px = 0, .height_px = 0};
   if (const auto calibration = read_calibration(rig_file(config.rig)); calibration) step.screen = calibration->screen;
   step.rules.hold = std::chrono::milliseconds(config.body_map.hold_ms);
   step.mirrored = config.body_map.mirrored;
@@ -39,14 +37,14 @@ nlohmann::json rect_json(const cv::Rect2d& rect) {
   return {{"x", rect.x}, {"y", rect.y}, {"w", rect.width}, {"h", rect.height}};
 }
 
-nlohmann::json look_json(const BodyMapStep& step, Timestamp looked, const std::string& problem, ScreenSize screen) {
+nlohmann::json look_json(const BodyMapStep& step, Timestamp looked, const std::string& problem) {
   const BodyMap& map = step.map();
   nlohmann::json look = {{"time_ns", to_ns(looked)},
                          {"version", map.version},
                          {"monitor", {{"width_px", step.monitor().width_px}, {"height_px", step.monitor().height_px}}},
                          {"problem", problem}};
   if (const auto in_front = step.in_front()) look["in_front"] = *in_front;
-  const auto scale = make_screen_scale(screen, step.monitor());
+  const auto scale = step.scale();
   if (map.version != 0 && scale) {
     look["seen_ns"] = to_ns(map.seen);
     look["face"] = rect_json(scale->to_px(map.face));
@@ -70,8 +68,7 @@ ExitCode look(const Options& options) {
   if (!finder) return fail(ExitCode::device, finder.error());
   if (!finder->note.empty()) fmt::print(stderr, "telehug-active: {}\n", finder->note);
 
-  const BodyMapStepConfig step_settings = step_config(*config);
-  BodyMapStep step(**grabber, *finder->finder, step_settings);
+  BodyMapStep step(**grabber, *finder->finder, step_config(*config));
   const auto period = std::chrono::duration_cast<Duration>(std::chrono::duration<double>(1 / config->body_map.rate_hz));
   const Timestamp begun = clock.now();
   const auto end = begun + std::chrono::duration_cast<Duration>(std::chrono::duration<double>(options.seconds));
@@ -80,7 +77,7 @@ ExitCode look(const Options& options) {
     const Status opened = (*grabber)->open();
     step.run();
     const std::string problem = opened ? step.problem() : opened.error().message;
-    fmt::print("{}\n", look_json(step, looked, problem, step_settings.screen).dump());
+    fmt::print("{}\n", look_json(step, looked, problem).dump());
     if (std::fflush(stdout) != 0) return ExitCode::ok;  // nobody reads any more
     const auto rest = std::chrono::duration_cast<std::chrono::milliseconds>(looked + period - clock.now());
     if (signals.wait(std::max(rest, std::chrono::milliseconds(0))) == SignalRequest::stop) break;

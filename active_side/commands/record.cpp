@@ -80,11 +80,9 @@ Result<int> record(FrameSource& camera, const ScreenRecording* screen, const Opt
 }
 
 // Ready to be recorded, with what is about to be written said.
-Result<std::unique_ptr<ScreenRecording>> open_screen(const ActiveConfig& config, const Options& options,
-                                                     const Clock& clock) {
-  auto grabber = make_screen_grabber(config, clock);
-  if (!grabber) return grabber.error();
-  auto screen = std::make_unique<ScreenRecording>(*std::move(grabber), options.folder, config.body_map.rate_hz, clock);
+Result<std::unique_ptr<ScreenRecording>> open_screen(std::unique_ptr<ScreenGrabber> grabber, const Options& options,
+                                                     double rate_hz, const Clock& clock) {
+  auto screen = std::make_unique<ScreenRecording>(std::move(grabber), options.folder, rate_hz, clock);
   if (const Status opened = screen->open(); !opened) return opened.error();
   fmt::print("pictures of the screen ({}), and so of the person in it, are written to {}; only you can read them\n",
              screen->name(), (std::filesystem::path(options.folder) / "screen").string());
@@ -134,7 +132,9 @@ ExitCode run(const Options& options) {
              options.folder, options.seconds);
   std::unique_ptr<ScreenRecording> screen;
   if (options.screen) {
-    auto opened = open_screen(*config, options, clock);
+    auto grabber = make_screen_grabber(*config, clock);
+    if (!grabber) return fail(ExitCode::config, grabber.error());
+    auto opened = open_screen(*std::move(grabber), options, config->body_map.rate_hz, clock);
     if (!opened) return fail(ExitCode::device, opened.error());
     screen = std::move(*opened);
   }

@@ -54,11 +54,12 @@ Figures measure_face_step(cv::Size size) {
   for (const char* name : {"blaze", "haar"}) {
     auto finder = make_face_finder(name);
     if (!finder || !finder->note.empty()) throw std::runtime_error(std::string("there is no finder ") + name);
-    BodyMapStep step(grabber, *finder->finder,
-                     {.screen = {.width_mm = 480, .height_mm = 300, .width_px = size.width, .height_px = size.height},
-                      .rules = {},
-                      .tracker = {},
-                      .mirrored = false});
+    BodyMapStep step(
+        grabber, *finder->finder,
+        {.screen = ScreenSize{.width_mm = 480, .height_mm = 300, .width_px = size.width, .height_px = size.height},
+         .rules = {},
+         .tracker = {},
+         .mirrored = false});
     const auto look = [&](GrabOutcome outcome) {
       grabber.outcome = outcome;
       grabber.picture.time += 125ms;

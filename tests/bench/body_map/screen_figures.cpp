@@ -19,7 +19,7 @@ namespace {
 constexpr double rate_hz = 8;
 const cv::Size screen_px(1920, 1080);
 const BodyMapStepConfig step_config{
-    .screen = {.width_mm = 480, .height_mm = 270, .width_px = screen_px.width, .height_px = screen_px.height},
+    .screen = ScreenSize{.width_mm = 480, .height_mm = 270, .width_px = screen_px.width, .height_px = screen_px.height},
     .rules = {},
     .tracker = {},
     .mirrored = false};

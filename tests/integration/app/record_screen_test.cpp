@@ -71,8 +71,8 @@ TEST_F(RecordScreen, CanBeRepeatedOnceTheScreenIsThere) {
   EXPECT_EQ(outcome.code, to_int(ExitCode::ok)) << outcome.text;
 }
 
-TEST_F(RecordScreen, AsksWhichScreenIsMeant) {
-  const Outcome outcome = pair.run(command({"--screen"}));
+TEST_F(RecordScreen, AsksWhichPictureIsMeant) {
+  const Outcome outcome = pair.run(command({"--screen", "--set", "body_map.source=picture"}));
   EXPECT_EQ(outcome.code, to_int(ExitCode::config));
   EXPECT_THAT(outcome.text, HasSubstr("body_map.picture"));
 }

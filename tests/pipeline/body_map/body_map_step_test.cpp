@@ -16,10 +16,11 @@ namespace {
 using testing::HasSubstr;
 
 // 0.5 mm a pixel sideways, 0.25 mm a pixel down.
-const BodyMapStepConfig config{.screen = {.width_mm = 400, .height_mm = 200, .width_px = 800, .height_px = 800},
-                               .rules = {},
-                               .tracker = {},
-                               .mirrored = false};
+const BodyMapStepConfig config{
+    .screen = ScreenSize{.width_mm = 400, .height_mm = 200, .width_px = 800, .height_px = 800},
+    .rules = {},
+    .tracker = {},
+    .mirrored = false};
 
 class BodyMapStepTest : public testing::Test {
  protected:
@@ -156,9 +157,19 @@ TEST_F(BodyMapStepTest, CountsTheBoxesOfAMirroredPictureFromTheRight) {
 }
 
 TEST_F(BodyMapStepTest, RefusesAScreenWithoutSize) {
-  BodyMapStep unmeasured(grabber, finder, {});
+  BodyMapStepConfig none = config;
+  none.screen = ScreenSize{};
+  BodyMapStep unmeasured(grabber, finder, none);
   EXPECT_EQ(unmeasured.run().version, 0U);
   EXPECT_THAT(unmeasured.problem(), HasSubstr("mm"));
+}
+
+TEST_F(BodyMapStepTest, TakesAPixelForAMillimetreWhereTheScreenIsNotKnown) {
+  BodyMapStepConfig unknown = config;
+  unknown.screen.reset();
+  BodyMapStep step_in_px(grabber, finder, unknown);
+  EXPECT_DOUBLE_EQ(step_in_px.run().face.x_mm, 100 + 300);
+  EXPECT_DOUBLE_EQ(step_in_px.map().box_side_mm, 80);
 }
 
 TEST(FaceOnAChatPicture, GivesTheBoxUnderATouchOnTheChest) {
@@ -171,7 +182,7 @@ TEST(FaceOnAChatPicture, GivesTheBoxUnderATouchOnTheChest) {
   ASSERT_TRUE(grabber.open());
   // 0.25 mm a pixel: the labelled face is 57 mm high, its chin at (137, 105) mm, a box 29 mm wide.
   BodyMapStep step(grabber, **finder,
-                   {.screen = {.width_mm = 320, .height_mm = 256, .width_px = 1280, .height_px = 1024},
+                   {.screen = ScreenSize{.width_mm = 320, .height_mm = 256, .width_px = 1280, .height_px = 1024},
                     .rules = {},
                     .tracker = {},
                     .mirrored = false});
