@@ -7,10 +7,10 @@
 #include <optional>
 #include <stdexcept>
 
-#include "body_map/make_face_finder.hpp"
 #include "calibration/calibration_file.hpp"
 #include "config/places.hpp"
 #include "detection/make_detector.hpp"
+#include "face/make_face_finder.hpp"
 #include "screen/picture_grabber.hpp"
 
 namespace telehug {
@@ -53,7 +53,7 @@ Result<std::unique_ptr<Rig>> make_rig(const ActiveConfig& config, const SessionI
   options.max_map_age = std::chrono::milliseconds(config.body_map.max_age_ms);
   BodyMapStepConfig step;
   step.screen = screen;
-  step.tracker.hold = std::chrono::milliseconds(config.body_map.hold_ms);
+  step.rules.hold = std::chrono::milliseconds(config.body_map.hold_ms);
   PictureGrabberConfig grabber;
   grabber.path = config.body_map.picture;
   auto face = std::make_shared<FaceWorker>(std::make_unique<PictureGrabber>(grabber, clock), std::move(faces->finder),

@@ -19,8 +19,8 @@ struct ScreenPoint {
   constexpr bool operator==(const ScreenPoint&) const = default;
 };
 
-// A place on the remote person's body, in heights of their face (fh): x from the midline, positive towards the right
-// edge of the screen; y from the chin, positive downwards.
+// A place on the remote person's body, in heights of their face (fh): x from the midline, positive towards their own
+// left, which is the right edge of the screen unless the picture is mirrored; y from the chin, positive downwards.
 struct BodyPoint {
   double x_fh = 0;
   double y_fh = 0;

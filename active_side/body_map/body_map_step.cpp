@@ -1,21 +1,43 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "body_map/body_map_step.hpp"
 
-#include <optional>
 #include <utility>
 
 #include "body_map/screen_scale.hpp"
-#include "body_map/vitruvian_grid.hpp"
 
 namespace telehug {
+namespace {
+
+const char* sentence(NobodyFollowed why) {
+  switch (why) {
+    case NobodyFollowed::no_face:
+      return "No face is seen in the picture of the video chat.";
+    case NobodyFollowed::not_sure:
+      return "A face may be in the picture of the video chat; it is not sure yet.";
+    case NobodyFollowed::still:
+      return "The face in the picture of the video chat never moves: it is a picture of somebody, not somebody.";
+    case NobodyFollowed::refused:
+      return "The faces in the picture of the video chat are too small, in a corner like the own picture, or not where "
+             "a face is pinned.";
+  }
+  return "";
+}
+
+}  // namespace
 
 BodyMapStep::BodyMapStep(ScreenGrabber& grabber, FaceFinder& finder, const BodyMapStepConfig& config)
-    : grabber_(grabber), finder_(finder), config_(config), tracker_(config.tracker) {}
+    : grabber_(grabber),
+      finder_(finder),
+      config_(config),
+      follower_(config.rules, grabber.is_live()),
+      tracker_(config.tracker, config.mirrored) {}
 
 const BodyMap& BodyMapStep::run() {
-  switch (grabber_.grab(picture_)) {
+  const GrabOutcome outcome = grabber_.grab(picture_);
+  in_front_ = outcome == GrabOutcome::lost ? std::nullopt : picture_.in_front;
+  switch (outcome) {
     case GrabOutcome::unchanged:
-      return tracker_.unchanged(picture_.time);
+      return lay(follower_.unchanged(picture_.time));
     case GrabOutcome::lost:
       return lose(grabber_.last_error());
     case GrabOutcome::changed:
@@ -25,34 +47,47 @@ const BodyMap& BodyMapStep::run() {
 }
 
 const BodyMap& BodyMapStep::search() {
-  const auto scale = make_screen_scale(config_.screen, picture_.monitor);
-  if (!scale) {
-    return lose(scale.error().message);
-  }
+  notice_another_view();
   const auto faces = finder_.find(picture_.bgr);
-  if (!faces) {
-    return lose(faces.error().message);
+  if (!faces) return lose(faces.error().message);
+  return lay(follower_.look(picture_.time, picture_.bgr, *faces));
+}
+
+// A moved window, another size: what was where before says nothing.
+void BodyMapStep::notice_another_view() {
+  const cv::Rect view(picture_.origin_px, picture_.bgr.size());
+  const bool same = view == view_px_ && picture_.monitor.width_px == view_monitor_.width_px &&
+                    picture_.monitor.height_px == view_monitor_.height_px;
+  view_px_ = view;
+  view_monitor_ = picture_.monitor;
+  if (!same) follower_.start_anew();
+}
+
+const BodyMap& BodyMapStep::lay(const std::optional<FollowedFace>& followed) {
+  const auto scale = make_screen_scale(config_.screen, view_monitor_);
+  if (!scale) {
+    problem_ = scale.error().message;
+    return tracker_.update(picture_.time, std::nullopt, {});
   }
-  const cv::Size size = picture_.bgr.size();
-  const auto found = choose_remote_face(*faces, {.width_px = size.width, .height_px = size.height}, config_.rules);
-  const cv::Point2d origin = picture_.origin_px;
-  const ScreenRect view = scale->to_mm(cv::Rect2d(origin, cv::Size2d(size)));
-  std::optional<ScreenRect> face;
-  if (found) {
-    face = scale->to_mm(found->box + origin);
+  std::optional<MappedFace> face;
+  if (followed) {
+    const cv::Point2d origin = view_px_.tl();
+    face = MappedFace{followed->person, scale->to_mm(followed->box + origin), followed->seen};
   }
+  const BodyMap& map = tracker_.update(picture_.time, face, scale->to_mm(cv::Rect2d(view_px_)));
   problem_.clear();
-  if (!face) {
-    problem_ = "No face is seen in the picture of the video chat.";
-  } else if (!make_body_map(*face, view.y_mm + view.height_mm)) {
+  if (!followed || followed->seen != picture_.time) {
+    problem_ = sentence(follower_.why_nobody());
+  } else if (map.version == 0) {
     problem_ = "A face is seen in the video chat, but nothing of the body below it.";
   }
-  return tracker_.searched(picture_.time, face, view);
+  return map;
 }
 
 const BodyMap& BodyMapStep::lose(std::string why) {
+  lay(follower_.blind(picture_.time));
   problem_ = std::move(why);
-  return tracker_.lost(picture_.time);
+  return tracker_.map();
 }
 
 }  // namespace telehug

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "body_map/body_map_tracker.hpp"
-#include "body_map/choose_remote_face.hpp"
-#include "body_map/face_finder.hpp"
+#include "face/face_finder.hpp"
+#include "face/remote_face_follower.hpp"
 #include "screen/screen_grabber.hpp"
 
 namespace telehug {
@@ -14,6 +15,7 @@ struct BodyMapStepConfig {
   ScreenSize screen;  // mm; its pixels are the grabber's business
   RemoteFaceRules rules;
   BodyMapTrackerConfig tracker;
+  bool mirrored = false;  // the picture shows the remote person as in a mirror
 };
 
 // The face step: look at the screen, find the remote face, lay the grid. Runs at its own pace in a thread of its own;
@@ -32,15 +34,31 @@ class BodyMapStep {
   // One sentence for status: why the last run saw no face, even if the map is still held; empty if it saw one.
   [[nodiscard]] const std::string& problem() const { return problem_; }
 
+  // Does the pinned window lie in front? None if no window is pinned, or nothing is seen of the screen.
+  [[nodiscard]] std::optional<bool> in_front() const { return in_front_; }
+
+  // Pixels of the monitor that was last looked at; 0x0 at first.
+  [[nodiscard]] ImageSize monitor() const { return picture_.monitor; }
+
+  // By hand: whom to follow. Between runs.
+  [[nodiscard]] RemoteFaceFollower& follower() { return follower_; }
+  [[nodiscard]] const RemoteFaceFollower& follower() const { return follower_; }
+
  private:
   const BodyMap& search();
+  const BodyMap& lay(const std::optional<FollowedFace>& followed);
   const BodyMap& lose(std::string why);
+  void notice_another_view();
 
   ScreenGrabber& grabber_;
   FaceFinder& finder_;
   BodyMapStepConfig config_;
+  RemoteFaceFollower follower_;
   BodyMapTracker tracker_;
   ScreenPicture picture_;
+  cv::Rect view_px_;        // the looked-at part of the monitor
+  ImageSize view_monitor_;  // and that monitor
+  std::optional<bool> in_front_;
   std::string problem_;
 };
 

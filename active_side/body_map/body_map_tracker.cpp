@@ -9,77 +9,102 @@
 namespace telehug {
 namespace {
 
-struct Offset {
-  double place_fh;  // the larger of the middle's and the chin's move
-  double height_fh;
-};
+double middle_of(const ScreenRect& face) {
+  return face.x_mm + face.width_mm / 2;
+}
 
-Offset offset(const ScreenRect& from, const ScreenRect& to) {
-  const double middle_mm = to.x_mm + to.width_mm / 2 - (from.x_mm + from.width_mm / 2);
-  const double chin_mm = to.y_mm + to.height_mm - (from.y_mm + from.height_mm);
-  return {.place_fh = std::max(std::abs(middle_mm), std::abs(chin_mm)) / from.height_mm,
-          .height_fh = std::abs(to.height_mm - from.height_mm) / from.height_mm};
+double chin_of(const ScreenRect& face) {
+  return face.y_mm + face.height_mm;
+}
+
+ScreenRect face_at(double middle_mm, double chin_mm, double height_mm, double width_per_height) {
+  const double width_mm = height_mm * width_per_height;
+  return {.x_mm = middle_mm - width_mm / 2, .y_mm = chin_mm - height_mm, .width_mm = width_mm, .height_mm = height_mm};
+}
+
+// The largest of the three moves, in heights of `from`.
+double offset_fh(const ScreenRect& from, const ScreenRect& to) {
+  return std::max({std::abs(middle_of(to) - middle_of(from)) / from.height_mm,
+                   std::abs(chin_of(to) - chin_of(from)) / from.height_mm,
+                   std::abs(std::log(to.height_mm / from.height_mm))});
 }
 
 bool same(const ScreenRect& a, const ScreenRect& b) {
   return a.x_mm == b.x_mm && a.y_mm == b.y_mm && a.width_mm == b.width_mm && a.height_mm == b.height_mm;
 }
 
+double seconds_between(Timestamp from, Timestamp to) {
+  return std::chrono::duration<double>(to - from).count();
+}
+
 }  // namespace
 
-bool BodyMapTracker::is_another_face(const ScreenRect& face) const {
-  const Offset off = offset(map_.face, face);
-  return off.place_fh > config_.jump_fh || off.height_fh > config_.jump_height;
-}
+BodyMapTracker::BodyMapTracker(const BodyMapTrackerConfig& config, bool mirrored)
+    : config_(config),
+      mirrored_(mirrored),
+      middle_mm_(config.filter),
+      chin_mm_(config.filter),
+      log_height_(config.filter) {}
 
-bool BodyMapTracker::left_dead_band(const ScreenRect& face) const {
-  const Offset off = offset(map_.face, face);
-  return std::max(off.place_fh, off.height_fh) > config_.dead_band_fh;
-}
-
-const BodyMap& BodyMapTracker::searched(Timestamp time, const std::optional<ScreenRect>& face, const ScreenRect& view) {
-  if (!same(view, view_)) {
+const BodyMap& BodyMapTracker::update(Timestamp time, const std::optional<MappedFace>& face, const ScreenRect& view) {
+  if (!face || !(face->face.height_mm > 0)) {
+    person_ = 0;
     map_ = {};
-  }
-  view_ = view;
-  face_ = face;
-  return follow(time);
-}
-
-const BodyMap& BodyMapTracker::unchanged(Timestamp time) {
-  return follow(time);
-}
-
-const BodyMap& BodyMapTracker::lost(Timestamp time) {
-  face_.reset();
-  return follow(time);
-}
-
-const BodyMap& BodyMapTracker::follow(Timestamp time) {
-  std::optional<BodyMap> fresh;
-  if (face_) {
-    fresh = make_body_map(*face_, view_.y_mm + view_.height_mm);
-  }
-  if (fresh && map_.version != 0 && !is_another_face(*face_)) {
-    if (left_dead_band(*face_)) {
-      replace_map(*fresh);
-    }
-    map_.seen = time;
     return map_;
   }
-  if (map_.version != 0 && time - map_.seen > config_.hold) {
-    map_ = {};
+  const bool seen_now = face->seen == time;
+  if (face->person != person_ || (seen_now && offset_fh(shown_, face->face) > config_.leap_fh)) {
+    leap(*face);
+  } else {
+    if (seen_now) filter(*face, seconds_between(filtered_, time));
+    glide(seconds_between(updated_, time));
   }
-  if (fresh && map_.version == 0) {
-    replace_map(*fresh);
-    map_.seen = time;
-  }
+  updated_ = time;
+  if (seen_now) filtered_ = time;
+  lay(view, face->seen);
   return map_;
 }
 
-void BodyMapTracker::replace_map(const BodyMap& fresh) {
-  map_ = fresh;
-  map_.version = ++last_version_;
+void BodyMapTracker::leap(const MappedFace& face) {
+  person_ = face.person;
+  middle_mm_.reset(middle_of(face.face));
+  chin_mm_.reset(chin_of(face.face));
+  log_height_.reset(std::log(face.face.height_mm));
+  width_per_height_ = face.face.width_mm / face.face.height_mm;
+  shown_ = face.face;
+  gliding_ = false;
+}
+
+void BodyMapTracker::filter(const MappedFace& face, double seconds) {
+  if (!(seconds > 0)) return;
+  const double unit_mm = shown_.height_mm;
+  middle_mm_.update(middle_of(face.face), seconds, unit_mm);
+  chin_mm_.update(chin_of(face.face), seconds, unit_mm);
+  log_height_.update(std::log(face.face.height_mm), seconds);
+}
+
+void BodyMapTracker::glide(double seconds) {
+  const ScreenRect aim =
+      face_at(middle_mm_.value(), chin_mm_.value(), std::exp(log_height_.value()), width_per_height_);
+  const double off_fh = offset_fh(shown_, aim);
+  gliding_ = off_fh > (gliding_ ? config_.arrived_fh : config_.dead_band_fh);
+  if (!gliding_ || !(seconds > 0)) return;
+  const double share = 1 - std::exp(-seconds / std::chrono::duration<double>(config_.glide).count());
+  shown_ = face_at(std::lerp(middle_of(shown_), middle_of(aim), share), std::lerp(chin_of(shown_), chin_of(aim), share),
+                   std::lerp(shown_.height_mm, aim.height_mm, share), width_per_height_);
+}
+
+void BodyMapTracker::lay(const ScreenRect& view, Timestamp seen) {
+  auto fresh = make_body_map(shown_, view, mirrored_);
+  if (!fresh) {
+    map_ = {};
+    return;
+  }
+  const bool moved = map_.version == 0 || !same(fresh->face, map_.face) || !same(fresh->grid, map_.grid) ||
+                     !same(fresh->visible, map_.visible);
+  fresh->version = moved ? ++last_version_ : map_.version;
+  fresh->seen = seen;
+  map_ = *fresh;
 }
 
 }  // namespace telehug

@@ -1,51 +1,57 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <optional>
 
 #include "body_map/body_map.hpp"
+#include "body_map/one_euro_filter.hpp"
 
 namespace telehug {
 
-// Lengths in heights of the followed face.
+// Lengths in heights of the face (fh).
 struct BodyMapTrackerConfig {
-  double dead_band_fh = 0.10;  // the grid stands until the face's middle, chin or height is off by more (1/5 of a box)
-  Duration hold = 1500ms;      // a turned head or a hand in front of the face is over after that
-  double jump_fh = 1.0;        // a face that is off by more ...
-  double jump_height = 0.30;   // ... or differs in height by more than this share is another face, not a motion
+  OneEuroOptions filter;       // of the middle, the chin and the logarithm of the height, all three in fh
+  double dead_band_fh = 0.10;  // the grid stands until the filtered face is off by more: a fifth of a box ...
+  double arrived_fh = 0.025;   // ... and then glides there until it is off by less
+  Duration glide = 200ms;      // time constant
+  double leap_fh = 0.5;        // who is off by more has not moved like this: the picture has; the grid leaps after it
 };
 
-// From finds of the remote face over time to a map that stands still. Every change of the grid gets a new version; a
-// version is never used twice. A missed face is held where it was; another face is taken only when the followed one has
-// been missing for the hold time, so that one false find doesn't carry the grid away.
+// The face that the map belongs to.
+struct MappedFace {
+  std::uint32_t person = 0;  // another number: another face, or the same one elsewhere; the grid leaps there
+  ScreenRect face;           // hairline to chin
+  Timestamp seen;            // before the time of the update: not seen now, `face` is where it was last
+};
+
+// From where the remote face is over time to a map that stands still while somebody sits still, and follows when they
+// move. Every change of the grid gets a new version; a version is never used twice.
 class BodyMapTracker {
  public:
-  explicit BodyMapTracker(const BodyMapTrackerConfig& config = {}) : config_(config) {}
+  explicit BodyMapTracker(const BodyMapTrackerConfig& config = {}, bool mirrored = false);
 
-  // A picture was searched: `face` is the remote face or none, `view` the searched part of the screen, whose bottom
-  // ends the grid. When the view has changed nothing is held over from before.
-  const BodyMap& searched(Timestamp time, const std::optional<ScreenRect>& face, const ScreenRect& view);
+  // `view`: the part of the screen that shows the person, whose bottom ends the grid. Version 0 if there is no face, or
+  // no body below it. Times must rise.
+  const BodyMap& update(Timestamp time, const std::optional<MappedFace>& face, const ScreenRect& view);
 
-  // The screen shows the same as at the last call.
-  const BodyMap& unchanged(Timestamp time);
-
-  // There is no picture of the screen.
-  const BodyMap& lost(Timestamp time);
-
-  // Version 0 if there is no map. `seen` is the last time at which the face was there: older than the last call while
-  // the map is held.
   [[nodiscard]] const BodyMap& map() const { return map_; }
 
  private:
-  const BodyMap& follow(Timestamp time);
-  void replace_map(const BodyMap& fresh);
-  [[nodiscard]] bool is_another_face(const ScreenRect& face) const;
-  [[nodiscard]] bool left_dead_band(const ScreenRect& face) const;
+  void leap(const MappedFace& face);
+  void filter(const MappedFace& face, double seconds);
+  void glide(double seconds);
+  void lay(const ScreenRect& view, Timestamp seen);
 
   BodyMapTrackerConfig config_;
+  bool mirrored_;
   BodyMap map_;
-  ScreenRect view_;
-  std::optional<ScreenRect> face_;  // the newest find, in view_
+  std::uint32_t person_ = 0;  // 0: nobody
+  OneEuroFilter middle_mm_, chin_mm_, log_height_;
+  double width_per_height_ = 1;
+  ScreenRect shown_;  // the face that the grid hangs from
+  bool gliding_ = false;
+  Timestamp updated_, filtered_;
   std::uint32_t last_version_ = 0;
 };
 

@@ -27,7 +27,7 @@ Result<ShownBoxes> show_boxes(const ShowBoxesOptions& options, FaceFinder& finde
   if (const Status opened = grabber.open(); !opened) {
     return opened.error();
   }
-  BodyMapStep step(grabber, finder, {.screen = screen, .rules = {}, .tracker = {}});
+  BodyMapStep step(grabber, finder, {.screen = screen, .rules = {}, .tracker = {}, .mirrored = false});
   const BodyMap& map = step.run();
   if (map.version == 0) {
     return Error{fmt::format("{}: {}", options.picture.string(), step.problem())};

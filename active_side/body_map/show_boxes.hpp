@@ -8,9 +8,9 @@
 #include <opencv2/core/types.hpp>
 #include <optional>
 
-#include "body_map/face_finder.hpp"
 #include "common/messages.hpp"
 #include "common/result.hpp"
+#include "face/face_finder.hpp"
 
 namespace telehug {
 

@@ -14,13 +14,37 @@ int cell(double offset_mm, double side_mm, int count) {
   return std::clamp(static_cast<int>(std::floor(offset_mm / side_mm)), 0, count - 1);
 }
 
+// From the left edge of the screen to the way columns are counted, and back.
+int counted(int column, const BodyMap& map) {
+  return map.mirrored ? map.shape.columns - 1 - column : column;
+}
+
+ScreenRect common_part(const ScreenRect& a, const ScreenRect& b) {
+  const double left = std::max(a.x_mm, b.x_mm);
+  const double top = std::max(a.y_mm, b.y_mm);
+  return {.x_mm = left,
+          .y_mm = top,
+          .width_mm = std::min(a.x_mm + a.width_mm, b.x_mm + b.width_mm) - left,
+          .height_mm = std::min(a.y_mm + a.height_mm, b.y_mm + b.height_mm) - top};
+}
+
+bool is_empty(const ScreenRect& rect) {
+  return !(rect.width_mm > 0) || !(rect.height_mm > 0);
+}
+
+bool inside(const ScreenPoint& point, const ScreenRect& rect) {
+  return point.x_mm >= rect.x_mm && point.x_mm <= rect.x_mm + rect.width_mm && point.y_mm >= rect.y_mm &&
+         point.y_mm <= rect.y_mm + rect.height_mm;
+}
+
 }  // namespace
 
-std::optional<BodyMap> make_body_map(const ScreenRect& face, double bottom_mm) {
+std::optional<BodyMap> make_body_map(const ScreenRect& face, const ScreenRect& view, bool mirrored) {
   const double chin_mm = face.y_mm + face.height_mm;
-  const double height_mm = bottom_mm - chin_mm;
+  const double height_mm = view.y_mm + view.height_mm - chin_mm;
   if (!std::isfinite(face.x_mm) || !std::isfinite(face.width_mm) || !std::isfinite(height_mm) ||
-      !(face.height_mm > 0) || !(face.width_mm >= 0) || !(height_mm > 0)) {
+      !std::isfinite(view.x_mm) || !std::isfinite(view.width_mm) || !(face.height_mm > 0) || !(face.width_mm >= 0) ||
+      !(height_mm > 0)) {
     return std::nullopt;
   }
   const double side_mm = face.height_mm / 2;
@@ -29,42 +53,50 @@ std::optional<BodyMap> make_body_map(const ScreenRect& face, double bottom_mm) {
     return std::nullopt;
   }
   const double width_mm = grid_columns * side_mm;
+  const ScreenRect grid{.x_mm = face.x_mm + face.width_mm / 2 - width_mm / 2,
+                        .y_mm = chin_mm,
+                        .width_mm = width_mm,
+                        .height_mm = height_mm};
+  const ScreenRect visible = common_part(grid, view);
+  if (is_empty(visible)) {
+    return std::nullopt;
+  }
   return BodyMap{.version = 0,
                  .seen = {},
                  .face = face,
-                 .grid = {.x_mm = face.x_mm + face.width_mm / 2 - width_mm / 2,
-                          .y_mm = chin_mm,
-                          .width_mm = width_mm,
-                          .height_mm = height_mm},
+                 .grid = grid,
+                 .visible = visible,
                  .shape = {.columns = grid_columns, .rows = static_cast<std::uint16_t>(rows)},
-                 .box_side_mm = side_mm};
+                 .box_side_mm = side_mm,
+                 .mirrored = mirrored};
 }
 
 std::optional<BoxHit> box_at(const BodyMap& map, const ScreenPoint& point) {
-  const double x_mm = point.x_mm - map.grid.x_mm;
-  const double y_mm = point.y_mm - map.grid.y_mm;
-  const bool inside = x_mm >= 0 && x_mm <= map.grid.width_mm && y_mm >= 0 && y_mm <= map.grid.height_mm;
-  if (!inside || map.box_side_mm <= 0 || map.shape.columns == 0 || map.shape.rows == 0) {
+  if (!inside(point, map.visible) || map.box_side_mm <= 0 || map.shape.columns == 0 || map.shape.rows == 0) {
     return std::nullopt;
   }
-  const int column = cell(x_mm, map.box_side_mm, map.shape.columns);
+  const double x_mm = point.x_mm - map.grid.x_mm;
+  const double y_mm = point.y_mm - map.grid.y_mm;
+  const int column = counted(cell(x_mm, map.box_side_mm, map.shape.columns), map);
   const int row = cell(y_mm, map.box_side_mm, map.shape.rows);
   const double middle_mm = map.face.x_mm + map.face.width_mm / 2;
+  const double right_fh = (point.x_mm - middle_mm) / map.face.height_mm;
   return BoxHit{.box = static_cast<std::uint16_t>(row * map.shape.columns + column + 1),
-                .body = {.x_fh = (point.x_mm - middle_mm) / map.face.height_mm, .y_fh = y_mm / map.face.height_mm}};
+                .body = {.x_fh = map.mirrored ? -right_fh : right_fh, .y_fh = y_mm / map.face.height_mm}};
 }
 
 std::optional<ScreenRect> box_rect(const BodyMap& map, std::uint16_t box) {
   if (box < 1 || box > map.shape.columns * map.shape.rows) {
     return std::nullopt;
   }
-  const int column = (box - 1) % map.shape.columns;
+  const int column = counted((box - 1) % map.shape.columns, map);
   const int row = (box - 1) / map.shape.columns;
-  const double top_mm = row * map.box_side_mm;
-  return ScreenRect{.x_mm = map.grid.x_mm + column * map.box_side_mm,
-                    .y_mm = map.grid.y_mm + top_mm,
-                    .width_mm = map.box_side_mm,
-                    .height_mm = std::min(map.box_side_mm, map.grid.height_mm - top_mm)};
+  const ScreenRect whole{.x_mm = map.grid.x_mm + column * map.box_side_mm,
+                         .y_mm = map.grid.y_mm + row * map.box_side_mm,
+                         .width_mm = map.box_side_mm,
+                         .height_mm = map.box_side_mm};
+  const ScreenRect visible = common_part(whole, map.visible);
+  return is_empty(visible) ? std::nullopt : std::optional(visible);
 }
 
 }  // namespace telehug

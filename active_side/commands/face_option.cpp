@@ -6,7 +6,7 @@
 #include <CLI/CLI.hpp>
 #include <utility>
 
-#include "body_map/make_face_finder.hpp"
+#include "face/make_face_finder.hpp"
 
 namespace telehug {
 

@@ -4,8 +4,8 @@
 #include <memory>
 #include <string>
 
-#include "body_map/face_finder.hpp"
 #include "common/result.hpp"
+#include "face/face_finder.hpp"
 
 namespace CLI {
 class App;

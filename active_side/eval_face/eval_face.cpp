@@ -6,7 +6,7 @@
 #include <fstream>
 #include <string>
 
-#include "body_map/choose_remote_face.hpp"
+#include "face/remote_face_follower.hpp"
 #include "pictures/picture_file.hpp"
 #include "screen/picture_files.hpp"
 
@@ -14,12 +14,18 @@ namespace telehug {
 namespace fs = std::filesystem;
 namespace {
 
-std::string csv_row(const std::string& image, const std::optional<FoundFace>& face) {
+// The remote face of a picture by itself.
+std::optional<cv::Rect2d> pick(const cv::Mat& picture, const FoundFaces& faces) {
+  RemoteFaceFollower follower({}, false);
+  const auto& followed = follower.look(Timestamp{1ns}, picture, faces);
+  return followed ? std::optional(followed->box) : std::nullopt;
+}
+
+std::string csv_row(const std::string& image, const std::optional<cv::Rect2d>& face) {
   if (!face) {
     return fmt::format("{},,,,\n", image);
   }
-  const cv::Rect2d& box = face->box;
-  return fmt::format("{},{:.1f},{:.1f},{:.1f},{:.1f}\n", image, box.x, box.y, box.width, box.height);
+  return fmt::format("{},{:.1f},{:.1f},{:.1f},{:.1f}\n", image, face->x, face->y, face->width, face->height);
 }
 
 }  // namespace
@@ -48,7 +54,7 @@ Result<FaceEvaluation> eval_face(const fs::path& folder, const fs::path& out, Fa
     if (!found) {
       return Error{fmt::format("{}: {}", file.string(), found.error().message)};
     }
-    const auto picked = choose_remote_face(*found, {.width_px = picture->cols, .height_px = picture->rows});
+    const auto picked = pick(*picture, *found);
     const std::string image = file.filename().string();
     rows += csv_row(image, picked);
     ++evaluation.pictures;

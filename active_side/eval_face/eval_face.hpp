@@ -6,9 +6,9 @@
 #include <filesystem>
 #include <optional>
 
-#include "body_map/face_finder.hpp"
 #include "common/result.hpp"
 #include "eval_face/face_scores.hpp"
+#include "face/face_finder.hpp"
 
 namespace telehug {
 

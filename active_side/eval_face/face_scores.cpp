@@ -35,7 +35,7 @@ double percentile(std::vector<double> values, double share) {
 
 }  // namespace
 
-void FaceScores::add(const LabelledPicture& label, const FoundFaces& found, const std::optional<FoundFace>& picked) {
+void FaceScores::add(const LabelledPicture& label, const FoundFaces& found, const std::optional<cv::Rect2d>& picked) {
   if (label.faces.empty()) {
     ++pictures_without_face;
     false_picks += picked ? 1 : 0;
@@ -62,16 +62,16 @@ void FaceScores::add(const LabelledPicture& label, const FoundFaces& found, cons
     return;
   }
   const auto right = std::find_if(label.faces.begin(), label.faces.end(), [&](const LabelledFace& face) {
-    return as_good_as_remote(face, label) && fits(picked->box, face.box);
+    return as_good_as_remote(face, label) && fits(*picked, face.box);
   });
   if (right == label.faces.end()) {
     return;
   }
   ++remote_picked;
   const double height = right->box.height;
-  height_errors.push_back(std::abs(picked->box.height - height) / height);
-  centre_x_errors.push_back(std::abs(centre(picked->box).x - centre(right->box).x) / height);
-  chin_errors.push_back(std::abs(picked->box.br().y - right->box.br().y) / height);
+  height_errors.push_back(std::abs(picked->height - height) / height);
+  centre_x_errors.push_back(std::abs(centre(*picked).x - centre(right->box).x) / height);
+  chin_errors.push_back(std::abs(picked->br().y - right->box.br().y) / height);
 }
 
 std::string report(const FaceScores& scores) {

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "body_map/face_finder.hpp"
 #include "eval_face/face_labels.hpp"
+#include "face/face_finder.hpp"
 
 namespace telehug {
 
@@ -14,7 +14,7 @@ namespace telehug {
 // it in x and y and its height is 0.55 to 1.8 of it.
 class FaceScores {
  public:
-  void add(const LabelledPicture& label, const FoundFaces& found, const std::optional<FoundFace>& picked);
+  void add(const LabelledPicture& label, const FoundFaces& found, const std::optional<cv::Rect2d>& picked);
 
   int pictures_with_remote = 0;
   int remote_found = 0;   // some find fits the remote face

@@ -3,7 +3,7 @@
 
 #include <utility>
 
-#include "body_map/face_finder.hpp"
+#include "face/face_finder.hpp"
 
 namespace telehug {
 

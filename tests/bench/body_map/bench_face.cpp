@@ -17,9 +17,9 @@
 #include <vector>
 
 #include "body_map/body_map_step.hpp"
-#include "body_map/haar_face_finder.hpp"
 #include "body_map/vitruvian_grid.hpp"
 #include "doubles/planned_screen_grabber.hpp"
+#include "face/haar_face_finder.hpp"
 #include "pictures/picture_file.hpp"
 
 namespace telehug {
@@ -81,7 +81,8 @@ void bench_size(Figures& figures, FaceFinder& finder, const cv::Mat& chat, cv::S
 }
 
 void bench_box_at(Figures& figures, int rounds) {
-  const auto map = make_body_map({.x_mm = 200, .y_mm = 40, .width_mm = 60, .height_mm = 80}, 300);
+  const auto map = make_body_map({.x_mm = 200, .y_mm = 40, .width_mm = 60, .height_mm = 80},
+                                 {.x_mm = 0, .y_mm = 0, .width_mm = 480, .height_mm = 300});
   constexpr int touches = 1000;
   unsigned boxes = 0;
   measure(figures, "face.box_at_x1000", rounds, [&] {

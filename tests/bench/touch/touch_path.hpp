@@ -29,7 +29,8 @@ struct TouchedRig {
 // A face in the upper middle of the screen: the grid covers what the fingers touch.
 inline BodyMap body_map_on(const ScreenSize& screen) {
   const double height_mm = screen.height_mm / 4;
-  auto map = make_body_map({(screen.width_mm - height_mm) / 2, height_mm / 2, height_mm, height_mm}, screen.height_mm);
+  auto map = make_body_map({(screen.width_mm - height_mm) / 2, height_mm / 2, height_mm, height_mm},
+                           {0, 0, screen.width_mm, screen.height_mm});
   if (!map) throw std::runtime_error("no grid fits the screen");
   map->version = 1;
   return *std::move(map);

@@ -46,7 +46,7 @@ class ActivePipelineTest : public testing::Test {
  protected:
   ActivePipelineTest() {
     // A face 60 mm high: boxes of 30 mm, the grid from (125, 80) to (275, 300).
-    map = make_body_map({160, 20, 80, 60}, 300).value();
+    map = make_body_map({160, 20, 80, 60}, {0, 0, 400, 300}).value();
     map.version = 7;
     map.seen = clock.now();
   }

@@ -3,11 +3,11 @@
 
 #include <gmock/gmock.h>
 
-#include "body_map/haar_face_finder.hpp"
 #include "body_map/vitruvian_grid.hpp"
 #include "doubles/fake_clock.hpp"
 #include "doubles/planned_face_finder.hpp"
 #include "doubles/planned_screen_grabber.hpp"
+#include "face/haar_face_finder.hpp"
 #include "screen/picture_grabber.hpp"
 
 namespace telehug {
@@ -16,8 +16,10 @@ namespace {
 using testing::HasSubstr;
 
 // 0.5 mm a pixel sideways, 0.25 mm a pixel down.
-const BodyMapStepConfig config{
-    .screen = {.width_mm = 400, .height_mm = 200, .width_px = 800, .height_px = 800}, .rules = {}, .tracker = {}};
+const BodyMapStepConfig config{.screen = {.width_mm = 400, .height_mm = 200, .width_px = 800, .height_px = 800},
+                               .rules = {},
+                               .tracker = {},
+                               .mirrored = false};
 
 class BodyMapStepTest : public testing::Test {
  protected:
@@ -89,6 +91,7 @@ TEST_F(BodyMapStepTest, HoldsTheMapAndThenDropsItWhenTheScreenIsLost) {
   look(GrabOutcome::lost, 1s);
   EXPECT_EQ(map.version, 1U);
   EXPECT_EQ(step.problem(), "The screen is gone.");
+  EXPECT_FALSE(step.in_front());
   look(GrabOutcome::lost, 1s);
   EXPECT_EQ(map.version, 0U);
   look(GrabOutcome::changed);
@@ -110,6 +113,48 @@ TEST_F(BodyMapStepTest, LivesOnWhenTheFinderFails) {
   EXPECT_EQ(map.version, 2U);
 }
 
+TEST_F(BodyMapStepTest, HoldsNothingOverFromAnotherPlaceOrSizeOfTheWindow) {
+  look(GrabOutcome::changed);
+  finder.faces = FoundFaces{};
+  grabber.picture.origin_px.x = 99;
+  look(GrabOutcome::changed);
+  EXPECT_EQ(map.version, 0U);
+  finder.faces = FoundFaces{{.box = {300, 100, 80, 160}, .score = 1}};
+  look(GrabOutcome::changed);
+  EXPECT_EQ(map.version, 2U);
+  EXPECT_DOUBLE_EQ(map.face.x_mm, (99 + 300) * 0.5);
+  grabber.picture.monitor.width_px = 1600;
+  look(GrabOutcome::changed);
+  EXPECT_DOUBLE_EQ(map.face.x_mm, (99 + 300) * 0.25) << "twice as many pixels on the same screen";
+}
+
+TEST_F(BodyMapStepTest, TellsWhetherThePinnedWindowIsInFront) {
+  EXPECT_FALSE(step.in_front()) << "not looked yet";
+  for (const bool in_front : {true, false}) {
+    grabber.picture.in_front = in_front;
+    look(GrabOutcome::changed);
+    EXPECT_EQ(step.in_front(), in_front);
+    look(GrabOutcome::unchanged);
+    EXPECT_EQ(step.in_front(), in_front);
+  }
+}
+
+TEST_F(BodyMapStepTest, SaysThatAFaceOnALiveScreenNeverMoves) {
+  grabber.live = true;
+  BodyMapStep live(grabber, finder, config);
+  for (int i = 0; i < 20; ++i) {
+    grabber.picture.time += 125ms;
+    EXPECT_EQ(live.run().version, 0U);
+  }
+  EXPECT_THAT(live.problem(), HasSubstr("never moves"));
+}
+
+TEST_F(BodyMapStepTest, CountsTheBoxesOfAMirroredPictureFromTheRight) {
+  BodyMapStepConfig mirrored = config;
+  mirrored.mirrored = true;
+  EXPECT_TRUE(BodyMapStep(grabber, finder, mirrored).run().mirrored);
+}
+
 TEST_F(BodyMapStepTest, RefusesAScreenWithoutSize) {
   BodyMapStep unmeasured(grabber, finder, {});
   EXPECT_EQ(unmeasured.run().version, 0U);
@@ -125,9 +170,11 @@ TEST(FaceOnAChatPicture, GivesTheBoxUnderATouchOnTheChest) {
       clock);
   ASSERT_TRUE(grabber.open());
   // 0.25 mm a pixel: the labelled face is 57 mm high, its chin at (137, 105) mm, a box 29 mm wide.
-  BodyMapStep step(
-      grabber, **finder,
-      {.screen = {.width_mm = 320, .height_mm = 256, .width_px = 1280, .height_px = 1024}, .rules = {}, .tracker = {}});
+  BodyMapStep step(grabber, **finder,
+                   {.screen = {.width_mm = 320, .height_mm = 256, .width_px = 1280, .height_px = 1024},
+                    .rules = {},
+                    .tracker = {},
+                    .mirrored = false});
   const BodyMap map = step.run();
   ASSERT_EQ(map.version, 1U) << step.problem();
   EXPECT_NEAR(map.face.height_mm, 57, 9);

@@ -6,9 +6,9 @@
 #include <fstream>
 #include <sstream>
 
-#include "body_map/haar_face_finder.hpp"
 #include "doubles/planned_face_finder.hpp"
 #include "doubles/temporary_folder.hpp"
+#include "face/haar_face_finder.hpp"
 #include "pictures/picture_file.hpp"
 
 namespace telehug {

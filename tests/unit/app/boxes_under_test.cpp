@@ -13,7 +13,7 @@ constexpr Duration max_age = 3s;
 
 // A face 60 mm high: boxes of 30 mm, the grid from (125, 80) to (275, 300).
 BodyMap map_seen(Timestamp when) {
-  BodyMap map = make_body_map({160, 20, 80, 60}, 300).value();
+  BodyMap map = make_body_map({160, 20, 80, 60}, {0, 0, 400, 300}).value();
   map.version = 7;
   map.seen = when;
   return map;

@@ -13,8 +13,13 @@ namespace {
 // A face 40 mm high with its chin at y = 100 and its middle at x = 200: boxes of 20 mm.
 const ScreenRect face{.x_mm = 185, .y_mm = 60, .width_mm = 30, .height_mm = 40};
 
+// A picture of the person that ends there and cuts nothing off at the sides.
+ScreenRect view_to(double bottom_mm) {
+  return {.x_mm = -10'000, .y_mm = 0, .width_mm = 20'000, .height_mm = bottom_mm};
+}
+
 BodyMap map_of(const ScreenRect& rect, double bottom_mm) {
-  const auto map = make_body_map(rect, bottom_mm);
+  const auto map = make_body_map(rect, view_to(bottom_mm));
   EXPECT_TRUE(map);
   return map.value_or(BodyMap{});
 }
@@ -74,14 +79,17 @@ TEST(VitruvianGrid, AddsNoRowForRounding) {
 
 TEST(VitruvianGrid, IsNotMadeWhereThereIsNoBody) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_FALSE(make_body_map(face, 100)) << "the chin is the bottom";
-  EXPECT_FALSE(make_body_map(face, 80));
-  EXPECT_FALSE(make_body_map(face, nan));
-  EXPECT_FALSE(make_body_map(face, std::numeric_limits<double>::infinity()));
-  EXPECT_FALSE(make_body_map({}, 100)) << "the face has no height";
-  EXPECT_FALSE(make_body_map({.x_mm = nan, .y_mm = 0, .width_mm = 10, .height_mm = 10}, 100));
-  EXPECT_FALSE(make_body_map({.x_mm = 0, .y_mm = 0, .width_mm = 10, .height_mm = -10}, 100));
-  EXPECT_FALSE(make_body_map({.x_mm = 0, .y_mm = 0, .width_mm = 1e-9, .height_mm = 1e-9}, 100)) << "too many rows";
+  EXPECT_FALSE(make_body_map(face, view_to(100))) << "the chin is the bottom";
+  EXPECT_FALSE(make_body_map(face, view_to(80)));
+  EXPECT_FALSE(make_body_map(face, view_to(nan)));
+  EXPECT_FALSE(make_body_map(face, view_to(std::numeric_limits<double>::infinity())));
+  EXPECT_FALSE(make_body_map(face, {.x_mm = 251, .y_mm = 0, .width_mm = 100, .height_mm = 200})) << "beside the grid";
+  EXPECT_FALSE(make_body_map(face, {.x_mm = 0, .y_mm = 0, .width_mm = nan, .height_mm = 200}));
+  EXPECT_FALSE(make_body_map({}, view_to(100))) << "the face has no height";
+  EXPECT_FALSE(make_body_map({.x_mm = nan, .y_mm = 0, .width_mm = 10, .height_mm = 10}, view_to(100)));
+  EXPECT_FALSE(make_body_map({.x_mm = 0, .y_mm = 0, .width_mm = 10, .height_mm = -10}, view_to(100)));
+  EXPECT_FALSE(make_body_map({.x_mm = 0, .y_mm = 0, .width_mm = 1e-9, .height_mm = 1e-9}, view_to(100)))
+      << "too many rows";
 }
 
 TEST(VitruvianGrid, NumbersBoxesRowByRowFromTheLeft) {
@@ -162,12 +170,43 @@ TEST(VitruvianGrid, GivesEveryEdgeToExactlyOneBox) {
   EXPECT_EQ(box_at(map, {.x_mm = 250, .y_mm = 200})->box, 25) << "its far corner";
 }
 
-TEST(VitruvianGrid, KeepsTheNumbersOfBoxesThatTheScreensEdgeCuts) {
-  // The middle of the face at x = 10: the first two columns lie left of the screen, the third across its edge.
-  const BodyMap map = map_of({.x_mm = 0, .y_mm = 60, .width_mm = 10, .height_mm = 40}, 200);
-  EXPECT_DOUBLE_EQ(box_rect(map, 1)->x_mm, -45);
-  EXPECT_EQ(box_at(map, {.x_mm = 0, .y_mm = 101})->box, 3);
-  EXPECT_EQ(box_at(map, {.x_mm = 16, .y_mm = 101})->box, 4);
+TEST(VitruvianGrid, KeepsTheNumbersOfBoxesThatThePicturesEdgeCuts) {
+  // The middle of the face at x = 5: the first two columns lie left of the picture, the third across its edge.
+  const auto map = make_body_map({.x_mm = 0, .y_mm = 60, .width_mm = 10, .height_mm = 40},
+                                 {.x_mm = 0, .y_mm = 0, .width_mm = 30, .height_mm = 200});
+  ASSERT_TRUE(map);
+  EXPECT_FALSE(box_rect(*map, 1));
+  EXPECT_FALSE(box_rect(*map, 2));
+  EXPECT_DOUBLE_EQ(box_rect(*map, 3)->x_mm, 0);
+  EXPECT_DOUBLE_EQ(box_rect(*map, 3)->width_mm, 15);
+  EXPECT_DOUBLE_EQ(box_rect(*map, 4)->width_mm, 15) << "cut at the right";
+  EXPECT_EQ(box_at(*map, {.x_mm = 0, .y_mm = 101})->box, 3);
+  EXPECT_EQ(box_at(*map, {.x_mm = 21, .y_mm = 101})->box, 4);
+}
+
+TEST(VitruvianGrid, HasNoBodyBesideThePicture) {
+  const auto map = make_body_map(face, {.x_mm = 170, .y_mm = 0, .width_mm = 60, .height_mm = 200});
+  ASSERT_TRUE(map);
+  EXPECT_FALSE(box_at(*map, {.x_mm = 169, .y_mm = 150})) << "another window lies there";
+  EXPECT_TRUE(box_at(*map, {.x_mm = 171, .y_mm = 150}));
+  EXPECT_TRUE(box_at(*map, {.x_mm = 229, .y_mm = 150}));
+  EXPECT_FALSE(box_at(*map, {.x_mm = 231, .y_mm = 150}));
+}
+
+// As in a mirror the person's left is on the left: the same part of the body keeps its number and its place.
+TEST(VitruvianGrid, CountsFromTheRightInAMirroredPicture) {
+  const BodyMap plain = map_of(face, 200);
+  const BodyMap mirrored = make_body_map(face, view_to(200), true).value();
+  for (double x = 151; x < 250; x += 7) {
+    const auto hit = box_at(plain, {.x_mm = x, .y_mm = 130});
+    const auto other = box_at(mirrored, {.x_mm = 400 - x, .y_mm = 130});
+    ASSERT_TRUE(hit && other);
+    EXPECT_EQ(hit->box, other->box);
+    EXPECT_DOUBLE_EQ(hit->body.x_fh, other->body.x_fh);
+    EXPECT_DOUBLE_EQ(hit->body.y_fh, other->body.y_fh);
+    EXPECT_LE(box_rect(mirrored, other->box)->x_mm, 400 - x);
+    EXPECT_GE(box_rect(mirrored, other->box)->x_mm + 20, 400 - x);
+  }
 }
 
 TEST(VitruvianGrid, HasNoBoxesWithoutAMap) {

@@ -20,7 +20,7 @@ FoundFace found(cv::Rect2d box, double dx, double dy, double scale = 1) {
 
 FaceScores score(const LabelledPicture& label, const FoundFaces& faces, const std::optional<FoundFace>& picked) {
   FaceScores scores;
-  scores.add(label, faces, picked);
+  scores.add(label, faces, picked ? std::optional(picked->box) : std::nullopt);
   return scores;
 }
 
@@ -72,7 +72,7 @@ TEST(FaceScores, MeasureRightPicksInFaceHeights) {
 
 TEST(FaceScores, CountPicksWhereThereIsNoFace) {
   FaceScores scores;
-  scores.add({}, {found(remote, 0, 0)}, found(remote, 0, 0));
+  scores.add({}, {found(remote, 0, 0)}, remote);
   scores.add({}, {found(self, 0, 0)}, std::nullopt);
   EXPECT_EQ(scores.pictures_without_face, 2);
   EXPECT_EQ(scores.false_picks, 1);
@@ -81,7 +81,7 @@ TEST(FaceScores, CountPicksWhereThereIsNoFace) {
 
 TEST(FaceScores, ReportCountsAndErrors) {
   FaceScores scores;
-  scores.add(picture, {found(remote, 0, 0, 1.1)}, found(remote, 0, 0, 1.1));
+  scores.add(picture, {found(remote, 0, 0, 1.1)}, found(remote, 0, 0, 1.1).box);
   scores.add(picture, {}, std::nullopt);
   const std::string table = report(scores);
   EXPECT_THAT(table, testing::ContainsRegex("remote face picked +1 of 2\n"));

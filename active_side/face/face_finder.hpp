@@ -11,7 +11,7 @@ namespace telehug {
 
 struct FoundFace {
   cv::Rect2d box;  // from hairline to chin, cheek to cheek; px of the picture it was found in, may reach past its edges
-  double score = 0;  // higher is surer; comparable only between finds of one finder
+  double score = 0;  // 0..1: how sure the finder is; from 0.75 on there is hardly ever no face
 };
 
 using FoundFaces = std::vector<FoundFace>;
@@ -22,7 +22,8 @@ class FaceFinder {
  public:
   virtual ~FaceFinder() = default;
 
-  // `bgr`: CV_8UC3, or empty (which has no faces). In no particular order. Never throws.
+  // `bgr`: CV_8UC3, CV_8UC4 (the fourth is not looked at), or empty (which has no faces). In no particular order. Never
+  // throws.
   virtual Result<FoundFaces> find(const cv::Mat& bgr) = 0;
 
   // What status and the log call this finder: "Haar".

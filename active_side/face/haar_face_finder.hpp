@@ -5,7 +5,7 @@
 #include <memory>
 #include <vector>
 
-#include "body_map/face_finder.hpp"
+#include "face/face_finder.hpp"
 
 namespace telehug {
 

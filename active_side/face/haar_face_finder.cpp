@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "body_map/haar_face_finder.hpp"
+#include "face/haar_face_finder.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -45,8 +45,8 @@ class HaarFaceFinder final : public FaceFinder {
     if (bgr.empty()) {
       return FoundFaces{};
     }
-    if (bgr.type() != CV_8UC3) {
-      return Error{"The picture is not in 8-bit BGR, so no face can be found in it."};
+    if (bgr.type() != CV_8UC3 && bgr.type() != CV_8UC4) {
+      return Error{"The picture is not in 8-bit BGR or BGRX, so no face can be found in it."};
     }
     try {
       return find_in(bgr);
@@ -62,7 +62,7 @@ class HaarFaceFinder final : public FaceFinder {
     const cv::Size search_size(std::max(1, cvRound(bgr.cols / px_per_search_px)),
                                std::max(1, cvRound(bgr.rows / px_per_search_px)));
     cv::resize(bgr, small_, search_size, 0, 0, cv::INTER_AREA);
-    cv::cvtColor(small_, grey_, cv::COLOR_BGR2GRAY);
+    cv::cvtColor(small_, grey_, small_.channels() == 4 ? cv::COLOR_BGRA2GRAY : cv::COLOR_BGR2GRAY);
     cv::equalizeHist(grey_, grey_);
     const int min_side = cvCeil(grey_.rows * min_height_share);
     cascade_.detectMultiScale(grey_, squares_, neighbours_, scale_step, min_neighbours, 0,
@@ -70,7 +70,7 @@ class HaarFaceFinder final : public FaceFinder {
 
     FoundFaces faces;
     for (std::size_t i = 0; i < squares_.size(); ++i) {
-      faces.push_back({calibrated(squares_[i], px_per_search_px), static_cast<double>(neighbours_[i])});
+      faces.push_back({calibrated(squares_[i], px_per_search_px), neighbours_[i] / (neighbours_[i] + 1.0)});
     }
     return faces;
   }

@@ -4,8 +4,8 @@
 #include <memory>
 #include <string>
 
-#include "body_map/blaze_face_finder.hpp"
-#include "body_map/face_finder.hpp"
+#include "face/blaze_face_finder.hpp"
+#include "face/face_finder.hpp"
 
 namespace telehug {
 

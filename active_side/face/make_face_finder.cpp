@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "body_map/make_face_finder.hpp"
+#include "face/make_face_finder.hpp"
 
 #include <fmt/format.h>
 
 #include <utility>
 
-#include "body_map/haar_face_finder.hpp"
+#include "face/haar_face_finder.hpp"
 
 namespace telehug {
 

@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "face/blaze_face_finder.hpp"
+
+#include <gmock/gmock.h>
+
+#include <fstream>
+#include <opencv2/imgproc.hpp>
+#include <sstream>
+
+#include "doubles/largest_face.hpp"
+#include "doubles/temporary_folder.hpp"
+#include "eval_face/eval_face.hpp"
+#include "face/make_face_finder.hpp"
+#include "pictures/picture_file.hpp"
+
+namespace telehug {
+namespace {
+
+using testing::HasSubstr;
+
+const std::filesystem::path chat = std::filesystem::path(TELEHUG_FIXTURES) / "chat";
+
+std::unique_ptr<FaceFinder> blaze() {
+  auto finder = make_blaze_face_finder();
+  EXPECT_TRUE(finder) << finder.error().message;
+  return finder ? std::move(*finder) : nullptr;
+}
+
+std::string bytes_of_the_model() {
+  for (const auto& path : known_blaze_models()) {
+    std::ostringstream bytes;
+    if (bytes << std::ifstream(path, std::ios::binary).rdbuf()) return bytes.str();
+  }
+  return {};
+}
+
+TEST(BlazeFaceFinder, FindsTheRemoteFaceFromHairlineToChin) {
+  const auto finder = blaze();
+  const auto labels = read_face_labels(chat);
+  ASSERT_TRUE(labels) << labels.error().message;
+  ASSERT_TRUE(*labels);
+  for (const auto& [name, label] : **labels) {
+    SCOPED_TRACE(name);
+    const auto picture = read_picture(chat / name);
+    ASSERT_TRUE(picture) << picture.error().message;
+    const auto faces = finder->find(*picture);
+    ASSERT_TRUE(faces) << faces.error().message;
+    const auto face = largest_face(*faces);
+    ASSERT_TRUE(face);
+    const cv::Rect2d& truth = label.faces.front().box;
+    EXPECT_NEAR(face->box.height, truth.height, 0.08 * truth.height);
+    EXPECT_NEAR(face->box.x + face->box.width / 2, truth.x + truth.width / 2, 0.05 * truth.height);
+    EXPECT_NEAR(face->box.br().y, truth.br().y, 0.06 * truth.height);
+    EXPECT_GE(face->score, 0.75);
+    EXPECT_LE(face->score, 1);
+  }
+}
+
+TEST(BlazeFaceFinder, FindsTheSameInAPictureWithAFourthChannel) {
+  const auto finder = blaze();
+  const auto picture = read_picture(chat / "02_self.jpg");
+  ASSERT_TRUE(picture);
+  cv::Mat bgrx;
+  cv::cvtColor(*picture, bgrx, cv::COLOR_BGR2BGRA);
+  const auto faces = finder->find(*picture);
+  const auto same = finder->find(bgrx);
+  ASSERT_TRUE(faces && same);
+  ASSERT_EQ(faces->size(), same->size());
+  for (std::size_t i = 0; i < faces->size(); ++i) {
+    EXPECT_EQ((*faces)[i].box, (*same)[i].box);
+    EXPECT_EQ((*faces)[i].score, (*same)[i].score);
+  }
+}
+
+// From a few times smaller to a face that fills the picture, in wide and in high pictures.
+TEST(BlazeFaceFinder, FindsAFaceOfManySizesAtItsPlace) {
+  const auto finder = blaze();
+  const auto picture = read_picture(chat / "02_self.jpg");
+  ASSERT_TRUE(picture);
+  const cv::Rect person(300, 120, 500, 600);
+  const cv::Rect2d truth(478 - 300, 193 - 120, 143, 229);
+  for (const double scale : {0.4, 0.7, 1.0, 1.5}) {
+    for (const cv::Size size : {cv::Size(1920, 1080), cv::Size(1080, 1920), cv::Size(1280, 1024)}) {
+      SCOPED_TRACE(testing::Message() << scale << " in " << size.width << "x" << size.height);
+      cv::Mat screen(size, CV_8UC3, cv::Scalar(60, 60, 60));
+      cv::Mat scaled;
+      cv::resize((*picture)(person), scaled, {}, scale, scale, cv::INTER_AREA);
+      const cv::Point at((size.width - scaled.cols) / 3, (size.height - scaled.rows) / 2);
+      scaled.copyTo(screen(cv::Rect(at, scaled.size())));
+      const auto faces = finder->find(screen);
+      ASSERT_TRUE(faces);
+      const auto face = largest_face(*faces);
+      ASSERT_TRUE(face);
+      EXPECT_NEAR(face->box.height, truth.height * scale, 0.15 * truth.height * scale);
+      EXPECT_NEAR(face->box.x + face->box.width / 2, at.x + (truth.x + truth.width / 2) * scale,
+                  0.10 * truth.height * scale);
+      EXPECT_NEAR(face->box.br().y, at.y + truth.br().y * scale, 0.12 * truth.height * scale);
+    }
+  }
+}
+
+TEST(BlazeFaceFinder, FindsNothingInAnEmptyOrUniformPicture) {
+  const auto finder = blaze();
+  for (const cv::Mat& picture :
+       {cv::Mat(), cv::Mat(0, 0, CV_8UC3), cv::Mat(1, 1, CV_8UC3, cv::Scalar(9, 9, 9)),
+        cv::Mat(1, 4000, CV_8UC3, cv::Scalar(9, 9, 9)), cv::Mat(4000, 1, CV_8UC3, cv::Scalar(9, 9, 9)),
+        cv::Mat(480, 640, CV_8UC3, cv::Scalar(90, 120, 90))}) {
+    const auto faces = finder->find(picture);
+    ASSERT_TRUE(faces) << faces.error().message;
+    EXPECT_TRUE(faces->empty());
+  }
+}
+
+TEST(BlazeFaceFinder, RefusesAPictureThatIsNotBgr) {
+  const auto faces = blaze()->find(cv::Mat(480, 640, CV_8UC1, cv::Scalar(90)));
+  ASSERT_FALSE(faces);
+  EXPECT_THAT(faces.error().message, HasSubstr("BGR"));
+}
+
+TEST(BlazeFaceFinder, NamesThePathsTriedWhereTheModelIsMissing) {
+  const TemporaryFolder folder;
+  const auto finder = make_blaze_face_finder({folder / "one.onnx", folder / "two.onnx"});
+  ASSERT_FALSE(finder);
+  EXPECT_THAT(finder.error().message, HasSubstr((folder / "one.onnx").string()));
+  EXPECT_THAT(finder.error().message, HasSubstr((folder / "two.onnx").string()));
+  EXPECT_THAT(finder.error().message, HasSubstr("install telehug again"));
+}
+
+TEST(BlazeFaceFinder, RefusesAFileThatDiffersFromTheModelInOneByte) {
+  const TemporaryFolder folder;
+  const std::string model = bytes_of_the_model();
+  ASSERT_EQ(model.size(), 603'432U);
+  EXPECT_TRUE(make_blaze_face_finder({folder.write("right.onnx", model)}));
+  std::string other = model;
+  other[300'000] = static_cast<char>(other[300'000] ^ 1);
+  for (const std::string& wrong : {other, model.substr(1), std::string(), std::string("not a model")}) {
+    const auto file = folder.write("wrong.onnx", wrong);
+    const auto finder = make_blaze_face_finder({file});
+    ASSERT_FALSE(finder);
+    EXPECT_THAT(finder.error().message, HasSubstr(file.string()));
+  }
+}
+
+TEST(MakeFaceFinder, TakesHaarAndSaysSoWhereTheModelCannotBeUsed) {
+  const TemporaryFolder folder;
+  const auto chosen = make_face_finder("blaze", {folder.write("wrong.onnx", "not a model")});
+  ASSERT_TRUE(chosen) << chosen.error().message;
+  EXPECT_EQ(chosen->finder->name(), "Haar");
+  EXPECT_THAT(chosen->note, HasSubstr("wrong.onnx"));
+  EXPECT_THAT(chosen->note, HasSubstr("Haar"));
+}
+
+TEST(MakeFaceFinder, MakesTheOneThatIsAskedFor) {
+  EXPECT_EQ(make_face_finder("blaze")->finder->name(), "BlazeFace");
+  EXPECT_EQ(make_face_finder("blaze")->note, "");
+  EXPECT_EQ(make_face_finder("haar")->finder->name(), "Haar");
+  EXPECT_EQ(make_face_finder("haar")->note, "");
+}
+
+// All labelled pictures, where they stand beside the project: 22 with a remote person, 5 with nobody.
+TEST(FaceSamples, AreAllPickedAndNothingElse) {
+  const std::filesystem::path samples = std::filesystem::path(TELEHUG_SOURCE) / ".." / "shared" / "face-samples";
+  if (!std::filesystem::exists(samples / "labels.csv")) GTEST_SKIP() << "the full set of pictures is not here";
+  const TemporaryFolder folder;
+  const auto evaluation = eval_face(samples, folder / "out.csv", *blaze());
+  ASSERT_TRUE(evaluation) << evaluation.error().message;
+  ASSERT_TRUE(evaluation->scores);
+  const FaceScores& scores = *evaluation->scores;
+  EXPECT_EQ(scores.remote_found, 22);
+  EXPECT_EQ(scores.remote_picked, 22);
+  EXPECT_EQ(scores.pictures_without_face, 5);
+  EXPECT_EQ(scores.false_picks, 0);
+  const auto share_within = [&](double limit) {
+    return static_cast<double>(std::ranges::count_if(scores.height_errors, [&](double e) { return e <= limit; })) / 22;
+  };
+  EXPECT_GE(share_within(0.08), 0.5);
+  EXPECT_GE(share_within(0.15), 0.9);
+}
+
+}  // namespace
+}  // namespace telehug
