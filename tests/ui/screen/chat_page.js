@@ -39,7 +39,7 @@ function place(view, rect) {
 }
 
 function draw(view) {
-  if (view.head) view.head.draw(view.canvas, performance.now() / 1000, view.liveliness);
+  if (view.head) view.head.draw(view.canvas, view.liveliness);
 }
 
 const nextFrame = () => new Promise((resolve) => requestAnimationFrame(resolve));

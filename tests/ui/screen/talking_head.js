@@ -2,7 +2,7 @@
 //
 // A talking head made from one picture: the head sways and nods in front of its background, the mouth opens and closes,
 // the light flickers and the camera's noise runs over it all. Every motion is a sum of sines whose phases come from
-// the seed. Lengths within the picture are px of the image file.
+// the seed, and begins when the head is made. Lengths within the picture are px of the image file.
 'use strict';
 
 // Evenly spread numbers of [0, 1) that are the same for the same seed.
@@ -58,6 +58,7 @@ function noiseTile(random) {
 class TalkingHead {
   // `person`: {picture: {x, y, w, h}, face: {x, y, w, h}}, the face from hairline to chin.
   constructor(image, person, seed) {
+    this.began_ms = performance.now();
     this.image = image;
     this.person = person;
     this.random = randomNumbers(seed);
@@ -75,7 +76,8 @@ class TalkingHead {
   }
 
   // `liveliness`: 1 for one who talks, 0 for one who holds still.
-  draw(canvas, time_s, liveliness) {
+  draw(canvas, liveliness) {
+    const time_s = (performance.now() - this.began_ms) / 1000;
     const context = canvas.getContext('2d', {alpha: false});
     const picture = this.person.picture;
     const scale_x = canvas.width / picture.w;
