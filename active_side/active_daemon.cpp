@@ -41,6 +41,7 @@ ActiveDaemon::ActiveDaemon(const ActiveConfig& config, std::unique_ptr<FrameSour
       publish_latency_(metrics_.latency("publish")),
       total_latency_(metrics_.latency("frame_to_published")),
       local_touch_(local_outputs(config.local_touch), clock),
+      sending_switch_(config.sending.at_start, config.sending.only_in_front),
       calibration_path_(rig_file(config.rig)),
       felt_reader_(std::make_unique<Reader<Felt>>(participant_, [this](const Felt& felt) { felt_.push(felt); })),
       control_(std::make_unique<ControlServer>(control_options(config.control, Side::active))) {
@@ -107,13 +108,16 @@ void ActiveDaemon::adopt_rig() {
 }
 
 bool ActiveDaemon::camera_wanted(Timestamp now) {
-  const bool touches_go_out = rig_ && peer_.alive(now) && !stop_.stopped() && !peer_.stopped_by_peer();
+  // Switched off by hand, the camera is not needed; covered by another window the chat may be back at once.
+  const bool touches_go_out = rig_ && peer_.alive(now) && !stop_.stopped() && !peer_.stopped_by_peer() &&
+                              sending_switch_.mode() != SendingMode::off;
   const bool used_here = rig_ && local_touch_.on() && !stop_.stopped();
   if (!touches_go_out && !used_here) recording_over_ = false;
   if (rig_) rig_->face->want(touches_go_out && !recording_over_);
   // Before it is known where the remote person is, fingers mean nothing to the other side.
-  sending_ = touches_go_out && rig_->face->has_looked();
-  return (sending_ || used_here) && !recording_over_;
+  const bool screen_known = touches_go_out && rig_->face->has_looked();
+  sending_ = screen_known && sending_switch_.judge(rig_->face->view()) == SendingVerdict::sends;
+  return (screen_known || used_here) && !recording_over_;
 }
 
 void ActiveDaemon::take_frame() {
@@ -132,6 +136,7 @@ void ActiveDaemon::take_frame() {
       camera_latency_.record(clock_.now() - frame_.time);
       if (before != 0 && frame_.sequence > before + 1) frames_missed_.add(frame_.sequence - before - 1);
       publish(rig_->pipeline.process(frame_, map_, sending_), frame_.sequence);
+      count_withheld();
       return;
     case ReadOutcome::broken:
       frames_broken_.add();
@@ -157,6 +162,12 @@ void ActiveDaemon::rest() {
     publish(rig_->pipeline.process_nothing(map_, false), frame_.sequence);
   }
   std::this_thread::sleep_for(resting_round);
+}
+
+void ActiveDaemon::count_withheld() {
+  if (sending_) return;
+  for (const ContactState& contact : rig_->pipeline.contacts())
+    if (contact.phase == Phase::down) ++own_state_.withheld;
 }
 
 void ActiveDaemon::publish(const TouchEvent* event, std::uint64_t frame_sequence) {

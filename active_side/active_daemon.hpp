@@ -21,6 +21,7 @@
 #include "local_touch/local_touch.hpp"
 #include "peer_link/peer_link.hpp"
 #include "rig.hpp"
+#include "sending_switch.hpp"
 #include "service/control_server.hpp"
 #include "service/exit_code.hpp"
 #include "service/log.hpp"
@@ -52,6 +53,7 @@ struct TouchThreadState {
   bool knows_background = true;
   PeerState peer;
   NobodyTouched nobody;
+  std::uint64_t withheld = 0;  // touches that did not go out because of the sending switch
   DriftState camera_drift = DriftState::steady;
   std::optional<SentTouch> last_touch;
 };
@@ -79,6 +81,7 @@ class ActiveDaemon {
   [[nodiscard]] bool camera_wanted(Timestamp now);
   void take_frame();
   void rest();
+  void count_withheld();
   void publish(const TouchEvent* event, std::uint64_t frame_sequence);
   void tell_state(Timestamp now);
 
@@ -88,7 +91,9 @@ class ActiveDaemon {
   void tell_local_touch();
   void tell_peer();
   void answer_commands();
+  nlohmann::json order_face(const nlohmann::json& request);
   nlohmann::json status() const;
+  [[nodiscard]] nlohmann::json sending_json(const TouchThreadState& state) const;
   [[nodiscard]] std::optional<SideStatus> peer_told() const;
   nlohmann::json problems(const TouchThreadState& state, const FaceState& face) const;
 
@@ -128,6 +133,7 @@ class ActiveDaemon {
   LatestSlot<std::unique_ptr<Rig>> new_rig_;
   LocalTouch local_touch_;
   StopSwitch stop_;
+  SendingSwitch sending_switch_;
   std::atomic<bool> ending_ = false;
   mutable std::mutex state_mutex_;
   TouchThreadState state_;

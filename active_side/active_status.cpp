@@ -69,7 +69,51 @@ Json picture_problem(FrameVerdict verdict) {
 
 void ActiveDaemon::answer_commands() {
   control_->on("status", [this](const Json&) { return status(); });
+  control_->on("face", [this](const Json& request) { return order_face(request); });
   stop_.serve(*control_);
+  sending_switch_.serve(*control_);
+}
+
+Json ActiveDaemon::order_face(const Json& request) {
+  const auto given = request.find("order");
+  const std::string name = given != request.end() && given->is_string() ? given->get<std::string>() : "";
+  const auto order = name == "next"    ? std::optional(FaceOrder::next)
+                     : name == "pin"   ? std::optional(FaceOrder::pin)
+                     : name == "unpin" ? std::optional(FaceOrder::unpin)
+                                       : std::nullopt;
+  if (!order) return {{"error", "\"order\" is one of next, pin, unpin"}};
+  std::shared_ptr<FaceWorker> worker;
+  {
+    const std::lock_guard lock(state_mutex_);
+    worker = state_.face;
+  }
+  if (!worker) return {{"error", "there is no calibration, so the screen is not looked at"}};
+  const FaceState face = worker->state();
+  if (!face.open) return {{"error", "the screen is looked at only while a peer is connected and touches may go out"}};
+  const bool seen = face.map.version != 0;
+  if (order == FaceOrder::next && face.choices < (seen ? 2 : 1)) return {{"error", "no other face is seen"}};
+  if (order == FaceOrder::pin && !seen) return {{"error", "no face is followed that could be pinned"}};
+  worker->order(*order);
+  return {{"face", name}};
+}
+
+Json ActiveDaemon::sending_json(const TouchThreadState& state) const {
+  const SendingVerdict verdict = sending_switch_.judge(state.face ? state.face->view() : ScreenView{});
+  Json sending = {{"name", name_of(sending_switch_.mode())}, {"on", verdict == SendingVerdict::sends}};
+  switch (verdict) {
+    case SendingVerdict::sends:
+      break;
+    case SendingVerdict::switched_off:
+      sending["why"] = "switched off";
+      break;
+    case SendingVerdict::covered:
+      sending["why"] = "another window covers the pinned one";
+      break;
+    case SendingVerdict::never_pinned:
+      sending["why"] = "no window is pinned";
+      break;
+  }
+  return sending;
 }
 
 std::optional<SideStatus> ActiveDaemon::peer_told() const {
@@ -111,7 +155,10 @@ Json ActiveDaemon::problems(const TouchThreadState& state, const FaceState& face
   }
   if (state.recording_over) list.push_back(problem_json("the recording is over", "start again to replay it"));
   if (!face.problem.empty()) {
-    list.push_back(problem_json(face.problem, "touches are not sent until a face is found; check [body_map] picture"));
+    list.push_back(problem_json(face.problem, "touches are not sent until a face is found; check [body_map]"));
+  } else if (face.open && sending_switch_.judge(state.face->view()) == SendingVerdict::never_pinned) {
+    list.push_back(problem_json("touches don't go out: it is not known whether the video chat is in front",
+                                "run `telehug send on`, or set [body_map] window"));
   }
   return list;
 }
@@ -131,6 +178,7 @@ Json ActiveDaemon::status() const {
   counters["touches_without_face"] = state.nobody.no_face;
   counters["touches_with_old_map"] = state.nobody.map_too_old;
   counters["touches_outside_grid"] = state.nobody.outside_grid;
+  counters["touches_withheld"] = state.withheld;
   counters["peer_losses"] = state.peer.losses;
   counters["messages_dropped"] =
       peer_.dropped() + felt_reader_->counters().malformed + felt_reader_->counters().invalid;
@@ -153,7 +201,14 @@ Json ActiveDaemon::status() const {
                  {"peer", peer_json(state.peer, peer_told())},
                  {"camera", {{"name", camera_name_}, {"open", state.camera_open}, {"why", open_why}}},
                  {"screen", {{"name", face.screen}, {"open", face.open}}},
-                 {"face", {{"found", face.map.version != 0}, {"map_version", face.map.version}}},
+                 {"face",
+                  {{"found", face.map.version != 0},
+                   {"held", face.map.version != 0 && !face.problem.empty()},
+                   {"map_version", face.map.version},
+                   {"finder", face.finder},
+                   {"choices", face.choices},
+                   {"pinned", face.pinned}}},
+                 {"sending", sending_json(state)},
                  {"detector", {{"name", state.detector}, {"model", state.model}}},
                  {"counters", counters},
                  {"latency_ms", metrics_.latencies_json()}};

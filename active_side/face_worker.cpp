@@ -1,20 +1,31 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "face_worker.hpp"
 
+#include <algorithm>
 #include <exception>
 #include <utility>
 
 namespace telehug {
+namespace {
+
+// Where nobody has been seen for a while nobody is likely to be in the next moment.
+constexpr Duration idle_after = 10s;
+constexpr Duration idle_period = 500ms;
+
+}  // namespace
 
 FaceWorker::FaceWorker(std::unique_ptr<ScreenGrabber> grabber, std::unique_ptr<FaceFinder> finder,
                        const BodyMapStepConfig& config, double rate_hz, const Clock& clock, MetricsRegistry& metrics)
     : grabber_(std::move(grabber)),
       finder_(std::move(finder)),
       step_(*grabber_, *finder_, config),
+      live_(grabber_->is_live()),
       period_(std::chrono::duration_cast<Duration>(std::chrono::duration<double>(1 / rate_hz))),
       clock_(clock),
-      latency_(metrics.latency("face")) {
+      latency_(metrics.latency("face")),
+      last_face_(clock.now()) {
   state_.screen = grabber_->name();
+  state_.finder = finder_->name();
   thread_ = std::thread([this] { work(); });
 }
 
@@ -41,6 +52,19 @@ void FaceWorker::update(BodyMap& map) {
   if (auto newer = newest_.try_take()) map = *newer;
 }
 
+ScreenView FaceWorker::view() const noexcept {
+  const Front front = front_;
+  return {live_, front == Front::unknown ? std::nullopt : std::optional(front == Front::front)};
+}
+
+void FaceWorker::order(FaceOrder order) {
+  {
+    const std::lock_guard lock(mutex_);
+    if (orders_.size() < 16) orders_.push_back(order);  // more than anybody can press before the next look
+  }
+  changed_.notify_one();
+}
+
 FaceState FaceWorker::state() const {
   const std::lock_guard lock(mutex_);
   return state_;
@@ -50,8 +74,10 @@ void FaceWorker::work() {
   std::unique_lock lock(mutex_);
   while (!ending_) {
     const bool wanted = wanted_;
+    const std::vector<FaceOrder> orders = std::exchange(orders_, {});
     lock.unlock();
     const Timestamp started = clock_.now();
+    obey(orders);
     if (wanted) {
       look();
     } else {
@@ -60,13 +86,33 @@ void FaceWorker::work() {
     lock.lock();
     // A look that belongs to an earlier wish says nothing about this one.
     if (wanted && wanted_) has_looked_ = true;
-    const auto next = [this, wanted] { return ending_ || wanted_ != wanted; };
+    const auto next = [this, wanted] { return ending_ || wanted_ != wanted || !orders_.empty(); };
     if (wanted) {
-      changed_.wait_until(lock, started + period_, next);
+      changed_.wait_until(lock, started + pace(started), next);
     } else {
       changed_.wait(lock, next);
     }
   }
+}
+
+void FaceWorker::obey(const std::vector<FaceOrder>& orders) {
+  for (const FaceOrder order : orders) {
+    switch (order) {
+      case FaceOrder::next:
+        step_.follower().next();
+        break;
+      case FaceOrder::pin:
+        step_.follower().pin();
+        break;
+      case FaceOrder::unpin:
+        step_.follower().unpin();
+        break;
+    }
+  }
+}
+
+Duration FaceWorker::pace(Timestamp now) const {
+  return now - last_face_ > idle_after ? std::max(period_, idle_period) : period_;
 }
 
 void FaceWorker::look() {
@@ -80,17 +126,24 @@ void FaceWorker::look() {
   } catch (const std::exception& fault) {  // of a library, on a picture that it can't bear
     problem = std::string("the picture of the screen can't be searched: ") + fault.what();
   }
+  const auto in_front = step_.in_front();
+  front_ = !in_front ? Front::unknown : *in_front ? Front::front : Front::covered;
   newest_.put(map);
+  if (problem.empty()) last_face_ = started;
   latency_.record(clock_.now() - started);
+  const RemoteFaceFollower& follower = step_.follower();
   const std::lock_guard lock(mutex_);
-  state_ = {grabber_->name(), grabber_->is_open(), std::move(problem), map};
+  state_ = {grabber_->name(), grabber_->is_open(), std::move(problem), finder_->name(), map,
+            step_.monitor(),  follower.choices(),  follower.pinned()};
 }
 
 void FaceWorker::rest() {
   grabber_->close();
   newest_.put(BodyMap{});
+  front_ = Front::unknown;
+  last_face_ = clock_.now();
   const std::lock_guard lock(mutex_);
-  state_ = {grabber_->name(), false, "", BodyMap{}};
+  state_ = {grabber_->name(), false, "", finder_->name(), BodyMap{}, {}, 0, false};
 }
 
 }  // namespace telehug

@@ -5,12 +5,15 @@
 #include <condition_variable>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <thread>
+#include <vector>
 
 #include "body_map/body_map.hpp"
 #include "body_map/body_map_step.hpp"
 #include "common/latest_slot.hpp"
+#include "sending_switch.hpp"
 #include "service/metrics.hpp"
 
 namespace telehug {
@@ -19,8 +22,15 @@ struct FaceState {
   std::string screen;   // what is looked at
   bool open = false;    // is it being looked at now?
   std::string problem;  // why there is no face; empty if there is one
+  std::string finder;
   BodyMap map;
+  ImageSize monitor;  // its pixels; 0x0: not known
+  int choices = 0;    // faces that may be followed, the followed one included
+  bool pinned = false;
 };
+
+// What a person says about whom to follow.
+enum class FaceOrder { next, pin, unpin };
 
 // Looks for the remote face at its own pace, in a thread of its own, so that no touch ever waits for it.
 class FaceWorker {
@@ -42,26 +52,40 @@ class FaceWorker {
   // For the touch path: the newest map in `map` if there is a newer one. Never waits.
   void update(BodyMap& map);
 
+  // As of the last look.
+  [[nodiscard]] ScreenView view() const noexcept;
+
+  // Done before the next look, which comes at once. From any thread.
+  void order(FaceOrder order);
+
   [[nodiscard]] FaceState state() const;
 
  private:
+  enum class Front { unknown, front, covered };
+
   void work();
+  void obey(const std::vector<FaceOrder>& orders);
   void look();
   void rest();
+  [[nodiscard]] Duration pace(Timestamp now) const;
 
   std::unique_ptr<ScreenGrabber> grabber_;
   std::unique_ptr<FaceFinder> finder_;
   BodyMapStep step_;
+  const bool live_;
   Duration period_;
   const Clock& clock_;
   LatencyHistogram& latency_;
   LatestSlot<BodyMap> newest_;
+  Timestamp last_face_;
   std::atomic<bool> has_looked_ = false;
+  std::atomic<Front> front_ = Front::unknown;
 
   mutable std::mutex mutex_;
   std::condition_variable changed_;
   std::atomic<bool> wanted_ = false;  // written under the mutex
   bool ending_ = false;
+  std::vector<FaceOrder> orders_;
   FaceState state_;
   std::thread thread_;
 };

@@ -37,6 +37,7 @@ ExitCode parse_and_run(int argc, char** argv) {
   telehug::add_record(app, result);
   telehug::add_eval(app, result);
   telehug::add_show_boxes(app, result);
+  telehug::add_look(app, result);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& problem) {

@@ -11,7 +11,7 @@
 #include "config/places.hpp"
 #include "detection/make_detector.hpp"
 #include "face/make_face_finder.hpp"
-#include "screen/picture_grabber.hpp"
+#include "screen_source.hpp"
 
 namespace telehug {
 namespace {
@@ -54,10 +54,11 @@ Result<std::unique_ptr<Rig>> make_rig(const ActiveConfig& config, const SessionI
   BodyMapStepConfig step;
   step.screen = screen;
   step.rules.hold = std::chrono::milliseconds(config.body_map.hold_ms);
-  PictureGrabberConfig grabber;
-  grabber.path = config.body_map.picture;
-  auto face = std::make_shared<FaceWorker>(std::make_unique<PictureGrabber>(grabber, clock), std::move(faces->finder),
-                                           step, config.body_map.rate_hz, clock, metrics);
+  step.mirrored = config.body_map.mirrored;
+  auto grabber = make_screen_grabber(config, clock);
+  if (!grabber) return grabber.error();
+  auto face = std::make_shared<FaceWorker>(*std::move(grabber), std::move(faces->finder), step, config.body_map.rate_hz,
+                                           clock, metrics);
   try {
     std::optional<BorderStrip> background;
     std::string note = faces->note;

@@ -34,9 +34,13 @@ Result<ShownBoxes> show_boxes(const ShowBoxesOptions& options, FaceFinder& finde
   }
 
   std::uint16_t touched = options.touched.value_or(0);
+  const int boxes = map.shape.columns * map.shape.rows;
+  if (options.touched && (touched < 1 || touched > boxes)) {
+    return Error{
+        fmt::format("There is no box {}; {} has the boxes 1 to {}.", touched, options.picture.string(), boxes)};
+  }
   if (options.touched && !box_rect(map, touched)) {
-    return Error{fmt::format("There is no box {}; {} shows the boxes 1 to {}.", touched, options.picture.string(),
-                             map.shape.columns * map.shape.rows)};
+    return Error{fmt::format("Box {} lies beside the picture {}.", touched, options.picture.string())};
   }
   if (!options.touched && options.touched_px) {
     if (const auto hit = box_at(map, scale.to_mm(*options.touched_px))) {

@@ -24,6 +24,7 @@ void add_record(CLI::App& app, ExitCode& result);
 void add_camera(CLI::App& app, ExitCode& result);
 void add_eval(CLI::App& app, ExitCode& result);
 void add_show_boxes(CLI::App& app, ExitCode& result);
+void add_look(CLI::App& app, ExitCode& result);
 
 // The configuration's place on the command line, for subcommands that read it.
 struct ConfigOptions {

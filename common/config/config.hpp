@@ -54,11 +54,21 @@ struct LocalTouchConfig {
 };
 
 struct BodyMapConfig {
-  std::string picture;         // file or folder
+  std::string source = "auto";  // read it with parse_screen_source()
+  std::string picture;          // file or folder
+  std::string monitor;          // RandR's name; empty: the primary one
+  std::string window;           // part of a title or class; empty: none is pinned
+  std::string region;           // read it with parse_screen_region()
+  bool mirrored = false;
   std::string face = "blaze";  // blaze, haar
   double rate_hz = 8;
   int hold_ms = 1500;
   int max_age_ms = 3000;
+};
+
+struct SendingConfig {
+  std::string at_start = "auto";  // auto, on, off
+  bool only_in_front = true;
 };
 
 struct ActiveConfig {
@@ -67,6 +77,7 @@ struct ActiveConfig {
   TouchConfig touch;
   LocalTouchConfig local_touch;
   BodyMapConfig body_map;
+  SendingConfig sending;
   PeerConfig peer;
   int heartbeat_timeout_ms = 250;  // [peer]
   ControlConfig control;

@@ -3,6 +3,8 @@
 
 #include <fmt/core.h>
 
+#include <array>
+#include <charconv>
 #include <optional>
 
 namespace telehug {
@@ -26,6 +28,39 @@ Result<CameraSource> parse_camera_source(std::string_view text) {
   if (auto folder = after("replay:", text)) return CameraSource{CameraSourceKind::recording, *folder};
   return Error{fmt::format(
       "\"{}\" is not a camera source: it is \"webcam\", \"replay:DIR\", \"virtual\" or \"virtual:SEED\"", text)};
+}
+
+Result<ScreenSource> parse_screen_source(std::string_view text) {
+  if (text == "auto") return ScreenSource{ScreenSourceKind::automatic, {}};
+  if (text == "x11") return ScreenSource{ScreenSourceKind::x11, {}};
+  if (text == "portal") return ScreenSource{ScreenSourceKind::portal, {}};
+  if (text == "picture") return ScreenSource{ScreenSourceKind::picture, {}};
+  if (auto device = after("camera:", text)) return ScreenSource{ScreenSourceKind::camera, *device};
+  if (auto folder = after("replay:", text)) return ScreenSource{ScreenSourceKind::recording, *folder};
+  return Error{
+      fmt::format("\"{}\" is not a source of the screen's picture: it is \"auto\", \"x11\", \"portal\", \"picture\", "
+                  "\"camera:DEVICE\" or \"replay:DIR\"",
+                  text)};
+}
+
+Result<std::optional<ScreenRegion>> parse_screen_region(std::string_view text) {
+  if (text.empty()) return std::optional<ScreenRegion>();
+  const Error wrong{
+      fmt::format("\"{}\" is not a part of the screen: it is \"X,Y,WIDTH,HEIGHT\" in px, X and Y from 0 "
+                  "on, WIDTH and HEIGHT above 0, none above 32768",
+                  text)};
+  constexpr int most_px = 32'768;
+  std::array<int, 4> numbers{};
+  const char* at = text.data();
+  const char* const end = at + text.size();
+  for (std::size_t i = 0; i < numbers.size(); ++i) {
+    if (i > 0 && (at == end || *at++ != ',')) return wrong;
+    const auto [next, error] = std::from_chars(at, end, numbers[i]);
+    if (error != std::errc() || numbers[i] < (i < 2 ? 0 : 1) || numbers[i] > most_px) return wrong;
+    at = next;
+  }
+  if (at != end) return wrong;
+  return std::optional(ScreenRegion{numbers[0], numbers[1], numbers[2], numbers[3]});
 }
 
 Result<JacketLinkChoice> parse_jacket_link(std::string_view text) {

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The two values of the configuration that name a thing and, after a colon, where it is.
+// The values of the configuration that name a thing and, after a colon, where it is; and a rectangle.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -19,6 +20,27 @@ struct CameraSource {
 
 // "webcam", "replay:DIR", "virtual" or "virtual:SEED" (up to 9 digits).
 [[nodiscard]] Result<CameraSource> parse_camera_source(std::string_view text);
+
+enum class ScreenSourceKind { automatic, x11, portal, picture, camera, recording };
+
+struct ScreenSource {
+  ScreenSourceKind kind = ScreenSourceKind::automatic;
+  std::string place;  // device of a camera, folder of a recording
+};
+
+// "auto", "x11", "portal", "picture", "camera:DEVICE" or "replay:DIR".
+[[nodiscard]] Result<ScreenSource> parse_screen_source(std::string_view text);
+
+// Pixels of the monitor.
+struct ScreenRegion {
+  int x_px = 0;
+  int y_px = 0;
+  int width_px = 0;  // above 0
+  int height_px = 0;
+};
+
+// "X,Y,WIDTH,HEIGHT" in px; empty: none.
+[[nodiscard]] Result<std::optional<ScreenRegion>> parse_screen_region(std::string_view text);
 
 enum class JacketLinkKind { serial, simulated, recorded };
 

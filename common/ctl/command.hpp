@@ -16,6 +16,8 @@ void add_status(CLI::App& app, ExitCode& result);
 void add_watch(CLI::App& app, ExitCode& result);
 void add_stop(CLI::App& app, ExitCode& result);
 void add_resume(CLI::App& app, ExitCode& result);
+void add_send(CLI::App& app, ExitCode& result);
+void add_face(CLI::App& app, ExitCode& result);
 void add_version(CLI::App& app, ExitCode& result);
 
 }  // namespace telehug

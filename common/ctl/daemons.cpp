@@ -35,6 +35,10 @@ std::string nobody_there(const DaemonChoice& choice) {
 void add_daemon_options(CLI::App& command, DaemonChoice& choice) {
   command.add_option("--side", choice.side, "Only this side's daemon (default: every daemon found on this PC)")
       ->check(CLI::IsMember({"active", "passive"}));
+  add_socket_option(command, choice);
+}
+
+void add_socket_option(CLI::App& command, DaemonChoice& choice) {
   command.add_option("--socket", choice.socket, "The daemon's local socket (default: the usual places)");
 }
 

@@ -24,6 +24,9 @@ struct DaemonChoice {
 // --side and --socket.
 void add_daemon_options(CLI::App& command, DaemonChoice& choice);
 
+// --socket alone, where only one side is meant.
+void add_socket_option(CLI::App& command, DaemonChoice& choice);
+
 struct Daemon {
   std::filesystem::path socket;
   ControlClient client;

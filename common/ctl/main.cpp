@@ -17,6 +17,8 @@ Examples:
   telehug watch                       touches and answers as they happen
   telehug stop --reason "dinner"      everything off, on both PCs
   telehug resume
+  telehug send off                    touches on this screen touch nobody
+  telehug face next                   the other person in the picture is meant
 
 Exit codes: 0 ok, 1 fault of telehug, 2 wrong command line, 5 no daemon is running, 6 peer absent (--check),
   7 not allowed to use the socket, 8 the daemon does not answer properly, 9 the daemon refused, 11 stopped (--check),
@@ -31,6 +33,8 @@ ExitCode parse_and_run(int argc, char** argv) {
   telehug::add_watch(app, result);
   telehug::add_stop(app, result);
   telehug::add_resume(app, result);
+  telehug::add_send(app, result);
+  telehug::add_face(app, result);
   telehug::add_version(app, result);
   try {
     app.parse(argc, argv);

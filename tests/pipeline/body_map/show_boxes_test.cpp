@@ -70,8 +70,14 @@ TEST_F(ShowBoxesTest, FillsTheBoxUnderAPoint) {
 
 TEST_F(ShowBoxesTest, DrawsWhereTheGridReachesPastThePicture) {
   finder.faces = FoundFaces{{.box = {10, 150, 60, 80}, .score = 1}};
+  options.touched = 3;
+  const auto shown = show_boxes(options, finder);
+  ASSERT_TRUE(shown) << shown.error().message;
+  EXPECT_EQ(shown->touched, 3);
   options.touched = 1;
-  EXPECT_TRUE(show_boxes(options, finder));
+  const auto beside = show_boxes(options, finder);
+  ASSERT_FALSE(beside);
+  EXPECT_THAT(beside.error().message, HasSubstr("Box 1 lies beside the picture"));
 }
 
 TEST_F(ShowBoxesTest, EndsTheGridAtTheViewsBottom) {

@@ -19,6 +19,30 @@ TEST(CameraSource, IsAWebcamARecordingOrTheVirtualRig) {
     EXPECT_FALSE(parse_camera_source(wrong));
 }
 
+TEST(ScreenSource, IsAScreenAPictureACameraOrARecording) {
+  EXPECT_EQ(parse_screen_source("auto")->kind, ScreenSourceKind::automatic);
+  EXPECT_EQ(parse_screen_source("x11")->kind, ScreenSourceKind::x11);
+  EXPECT_EQ(parse_screen_source("portal")->kind, ScreenSourceKind::portal);
+  EXPECT_EQ(parse_screen_source("picture")->kind, ScreenSourceKind::picture);
+  EXPECT_EQ(parse_screen_source("camera:/dev/video2")->place, "/dev/video2");
+  EXPECT_EQ(parse_screen_source("replay:/a b")->kind, ScreenSourceKind::recording);
+  for (const char* wrong : {"", "camera:", "camera", "replay:", "x11 ", "X11", "wayland"})
+    EXPECT_FALSE(parse_screen_source(wrong));
+}
+
+TEST(ScreenRegion, IsNoneOrFourNumbers) {
+  EXPECT_FALSE(*parse_screen_region(""));
+  const auto region = parse_screen_region("10,0,640,480");
+  ASSERT_TRUE(region && *region);
+  EXPECT_EQ((*region)->x_px, 10);
+  EXPECT_EQ((*region)->y_px, 0);
+  EXPECT_EQ((*region)->width_px, 640);
+  EXPECT_EQ((*region)->height_px, 480);
+  for (const char* wrong : {"1,2,3", "1,2,3,4,5", "1,2,3,4,", ",1,2,3,4", "-1,0,5,5", "0,0,0,5", "0,0,5,0", "a,b,c,d",
+                            "0,0,99999,5", "1, 2,3,4", "1,2,3,99999999999999"})
+    EXPECT_FALSE(parse_screen_region(wrong)) << wrong;
+}
+
 TEST(JacketLinkChoice, IsASerialLineTheSimulationOrAFile) {
   EXPECT_EQ(parse_jacket_link("simulated")->kind, JacketLinkKind::simulated);
   EXPECT_EQ(parse_jacket_link("serial:/dev/ttyACM0")->path, "/dev/ttyACM0");

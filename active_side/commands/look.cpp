@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// `telehug-active look`: what telehug sees on the screen, without camera, peer or daemon.
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "body_map/body_map_step.hpp"
+#include "body_map/screen_scale.hpp"
+#include "calibration/calibration_file.hpp"
+#include "commands/config_options.hpp"
+#include "config/places.hpp"
+#include "face/make_face_finder.hpp"
+#include "screen_source.hpp"
+#include "service/log.hpp"
+#include "service/signals.hpp"
+
+namespace telehug {
+namespace {
+
+struct Options {
+  ConfigOptions config;
+  double seconds = 0;
+};
+
+// Where nobody has measured the screen, one of 1 mm a pixel does: only pixels are printed.
+BodyMapStepConfig step_config(const ActiveConfig& config) {
+  BodyMapStepConfig step;
+  step.screen = {.width_mm = 1000, .height_mm = 1000, .width_px = 0, .height_px = 0};
+  if (const auto calibration = read_calibration(rig_file(config.rig)); calibration) step.screen = calibration->screen;
+  step.rules.hold = std::chrono::milliseconds(config.body_map.hold_ms);
+  step.mirrored = config.body_map.mirrored;
+  return step;
+}
+
+nlohmann::json rect_json(const cv::Rect2d& rect) {
+  return {{"x", rect.x}, {"y", rect.y}, {"w", rect.width}, {"h", rect.height}};
+}
+
+nlohmann::json look_json(const BodyMapStep& step, Timestamp looked, const std::string& problem, ScreenSize screen) {
+  const BodyMap& map = step.map();
+  nlohmann::json look = {{"time_ns", to_ns(looked)},
+                         {"version", map.version},
+                         {"monitor", {{"width_px", step.monitor().width_px}, {"height_px", step.monitor().height_px}}},
+                         {"problem", problem}};
+  if (const auto in_front = step.in_front()) look["in_front"] = *in_front;
+  const auto scale = make_screen_scale(screen, step.monitor());
+  if (map.version != 0 && scale) {
+    look["seen_ns"] = to_ns(map.seen);
+    look["face"] = rect_json(scale->to_px(map.face));
+    look["grid"] = rect_json(scale->to_px(map.grid));
+    look["columns"] = map.shape.columns;
+    look["rows"] = map.shape.rows;
+    look["box_px"] = map.box_side_mm / scale->mm_per_px_y;
+  }
+  return look;
+}
+
+ExitCode look(const Options& options) {
+  Signals signals;
+  const auto config = load_config(options.config);
+  if (!config) return fail(ExitCode::config, config.error());
+  set_up_log(config->log.level);
+  const SteadyClock clock;
+  auto grabber = make_screen_grabber(*config, clock);
+  if (!grabber) return fail(ExitCode::config, grabber.error());
+  auto finder = make_face_finder(config->body_map.face);
+  if (!finder) return fail(ExitCode::device, finder.error());
+  if (!finder->note.empty()) fmt::print(stderr, "telehug-active: {}\n", finder->note);
+
+  const BodyMapStepConfig step_settings = step_config(*config);
+  BodyMapStep step(**grabber, *finder->finder, step_settings);
+  const auto period = std::chrono::duration_cast<Duration>(std::chrono::duration<double>(1 / config->body_map.rate_hz));
+  const Timestamp begun = clock.now();
+  const auto end = begun + std::chrono::duration_cast<Duration>(std::chrono::duration<double>(options.seconds));
+  while (options.seconds <= 0 || clock.now() < end) {
+    const Timestamp looked = clock.now();
+    const Status opened = (*grabber)->open();
+    step.run();
+    const std::string problem = opened ? step.problem() : opened.error().message;
+    fmt::print("{}\n", look_json(step, looked, problem, step_settings.screen).dump());
+    if (std::fflush(stdout) != 0) return ExitCode::ok;  // nobody reads any more
+    const auto rest = std::chrono::duration_cast<std::chrono::milliseconds>(looked + period - clock.now());
+    if (signals.wait(std::max(rest, std::chrono::milliseconds(0))) == SignalRequest::stop) break;
+  }
+  return ExitCode::ok;
+}
+
+}  // namespace
+
+void add_look(CLI::App& app, ExitCode& result) {
+  auto options = std::make_shared<Options>();
+  CLI::App* command =
+      app.add_subcommand("look", "Print what is seen of the remote person on the screen: a line of JSON a look");
+  add_config_options(*command, options->config);
+  command->add_option("--seconds", options->seconds, "How long; 0: until it is ended")->check(CLI::NonNegativeNumber);
+  command->callback([options, &result] { result = look(*options); });
+}
+
+}  // namespace telehug

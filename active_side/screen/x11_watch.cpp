@@ -1,0 +1,234 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "screen/x11_watch.hpp"
+
+#include <fmt/format.h>
+#include <xcb/composite.h>
+#include <xcb/randr.h>
+#include <xcb/shape.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <utility>
+
+#include "screen/x11_stacking.hpp"
+
+namespace telehug {
+namespace {
+
+// The extensions that are used must be told which version of them is spoken.
+Status agree_on_extensions(const X11Connection& connection) {
+  xcb_connection_t* const server = connection.get();
+  struct Needed {
+    xcb_extension_t* id;
+    const char* name;
+  };
+  constexpr std::array needed{Needed{&xcb_damage_id, "DAMAGE"}, Needed{&xcb_xfixes_id, "XFIXES"},
+                              Needed{&xcb_randr_id, "RANDR"}, Needed{&xcb_composite_id, "Composite"},
+                              Needed{&xcb_shape_id, "SHAPE"}};
+  for (const Needed& extension : needed) {
+    if (connection.extension(*extension.id) == nullptr) {
+      return Error{fmt::format("The X11 display {} lacks the extension {}, without which it can't be watched.",
+                               connection.display(), extension.name)};
+    }
+  }
+  const auto asked_damage = xcb_damage_query_version(server, 1, 1);
+  const auto asked_xfixes = xcb_xfixes_query_version(server, 2, 0);
+  const auto asked_randr = xcb_randr_query_version(server, 1, 5);
+  const auto asked_composite = xcb_composite_query_version(server, 0, 2);
+  const XcbOwned<xcb_damage_query_version_reply_t> damage(
+      xcb_damage_query_version_reply(server, asked_damage, nullptr));
+  const XcbOwned<xcb_xfixes_query_version_reply_t> xfixes(
+      xcb_xfixes_query_version_reply(server, asked_xfixes, nullptr));
+  const XcbOwned<xcb_randr_query_version_reply_t> randr(xcb_randr_query_version_reply(server, asked_randr, nullptr));
+  const XcbOwned<xcb_composite_query_version_reply_t> composite(
+      xcb_composite_query_version_reply(server, asked_composite, nullptr));
+  const bool new_enough = damage && xfixes && xfixes->major_version >= 2 && randr &&
+                          (randr->major_version > 1 || randr->minor_version >= 5) && composite &&
+                          (composite->major_version > 0 || composite->minor_version >= 2);
+  if (!new_enough) {
+    return Error{fmt::format("The X11 display {} is too old to be watched (RandR 1.5 and Composite 0.2 are needed).",
+                             connection.display())};
+  }
+  return Done{};
+}
+
+}  // namespace
+
+Result<std::unique_ptr<X11Watch>> X11Watch::connect(const X11GrabberConfig& config) {
+  auto connection = X11Connection::open(config.display);
+  if (!connection) {
+    return connection.error();
+  }
+  if (const Status agreed = agree_on_extensions(*connection); !agreed) {
+    return agreed.error();
+  }
+  std::unique_ptr<X11Watch> watch(new X11Watch(std::move(*connection), config));
+  if (const Status started = watch->start(); !started) {
+    return started.error();
+  }
+  return watch;
+}
+
+X11Watch::X11Watch(X11Connection connection, const X11GrabberConfig& config)
+    : connection_(std::move(connection)), config_(config), pixels_(connection_), windows_(connection_) {}
+
+Status X11Watch::start() {
+  const xcb_window_t root = connection_.root();
+  if (const auto* extension = connection_.extension(xcb_randr_id)) {
+    randr_event_ = extension->first_event;
+  }
+  xcb_randr_select_input(
+      connection_.get(), root,
+      XCB_RANDR_NOTIFY_MASK_SCREEN_CHANGE | XCB_RANDR_NOTIFY_MASK_CRTC_CHANGE | XCB_RANDR_NOTIFY_MASK_OUTPUT_CHANGE);
+  std::uint32_t events = XCB_EVENT_MASK_STRUCTURE_NOTIFY;
+  if (!config_.window.empty()) {
+    events |= XCB_EVENT_MASK_SUBSTRUCTURE_NOTIFY | XCB_EVENT_MASK_PROPERTY_CHANGE;
+    xcb_change_window_attributes(connection_.get(), root, XCB_CW_EVENT_MASK, &events);
+    return Done{};
+  }
+  xcb_change_window_attributes(connection_.get(), root, XCB_CW_EVENT_MASK, &events);
+  root_damage_.emplace(connection_, root);
+  return check_x11_pixels(connection_, connection_.screen().root_depth, connection_.screen().root_visual);
+}
+
+void X11Watch::note(const xcb_generic_event_t& event) {
+  if ((root_damage_ && root_damage_->note(event)) || (pinned_ && pinned_->damage().note(event))) {
+    return;
+  }
+  const bool is_randr = is_x11_event(event, randr_event_ + XCB_RANDR_SCREEN_CHANGE_NOTIFY) ||
+                        is_x11_event(event, randr_event_ + XCB_RANDR_NOTIFY);
+  const bool of_root =
+      is_x11_event(event, XCB_CONFIGURE_NOTIFY) &&
+      reinterpret_cast<const xcb_configure_notify_event_t&>(event).window == connection_.root();  // or its monitors
+  if (is_randr || of_root) {
+    monitors_stale_ = true;
+  }
+  if (is_x11_event(event, XCB_PROPERTY_NOTIFY)) {
+    const auto& property = reinterpret_cast<const xcb_property_notify_event_t&>(event);
+    if (property.window == connection_.root() && property.atom != windows_.stacking()) {
+      return;
+    }
+  }
+  places_stale_ = true;
+}
+
+Result<X11View> X11Watch::look() {
+  while (const auto event = connection_.next_event()) {
+    note(*event);
+  }
+  if (monitors_stale_) {
+    if (const Status found = find_monitor(); !found) {
+      return found.error();
+    }
+  }
+  if (places_stale_) {
+    if (const Status found = config_.window.empty() ? Done{} : find_window(); !found) {
+      return found.error();
+    }
+    places_stale_ = false;
+  }
+  return view_;
+}
+
+// Stays stale when it fails, so that the next look() tries again.
+Status X11Watch::find_monitor() {
+  const auto monitor = choose_x11_monitor(list_x11_monitors(connection_), config_.monitor);
+  if (!monitor) {
+    return monitor.error();
+  }
+  monitor_name_ = monitor->name;
+  monitor_px_ = monitor->place_px;
+  area_px_ = monitor_px_;
+  if (config_.region) {
+    // In 64 bits: the corner of a region from a config file may lie beyond what an int holds.
+    using Wide = cv::Rect_<std::int64_t>;
+    const Wide region = *config_.region;
+    const Wide seen = (region + Wide(monitor_px_).tl()) & Wide(monitor_px_);
+    if (seen.empty()) {
+      return Error{fmt::format(
+          "The region of {}x{} px at {},{} lies outside of the monitor {} ({}x{} px); correct the region.",
+          region.width, region.height, region.x, region.y, monitor_name_, monitor_px_.width, monitor_px_.height)};
+    }
+    area_px_ = cv::Rect(seen);
+  }
+  view_ = {.window = connection_.root(),
+           .part_px = area_px_,
+           .origin_px = area_px_.tl() - monitor_px_.tl(),
+           .monitor = {.width_px = monitor_px_.width, .height_px = monitor_px_.height},
+           .in_front = std::nullopt};
+  monitors_stale_ = false;
+  places_stale_ = true;
+  return Done{};
+}
+
+// The window that was found stays the one as long as it can be seen; else the topmost that can be.
+Status X11Watch::find_window() {
+  std::vector<xcb_window_t> candidates = windows_.named(config_.window);
+  std::stable_partition(candidates.begin(), candidates.end(),
+                        [this](xcb_window_t window) { return pinned_ && pinned_->id() == window; });
+  bool hidden = false;
+  bool elsewhere = false;
+  for (const xcb_window_t candidate : candidates) {
+    const auto place = windows_.place(candidate);
+    if (place && place->shown && !(place->inside_px & area_px_).empty()) {
+      if (!pinned_ || pinned_->id() != candidate) {
+        pinned_.emplace(connection_, candidate);
+      }
+      return place_view(*place);
+    }
+    hidden = hidden || (place && !place->shown);
+    elsewhere = elsewhere || (place && place->shown);
+  }
+  if (elsewhere) {
+    return lose_window(fmt::format("The window with \"{}\" in its title or class lies outside of {}; move it there.",
+                                   config_.window,
+                                   (config_.region ? "the region of monitor " : "monitor ") + monitor_name_));
+  }
+  if (hidden) {
+    return lose_window(fmt::format(
+        "The window with \"{}\" in its title or class is minimised or on another desktop; show it.", config_.window));
+  }
+  if (was_found_) {
+    return lose_window(
+        fmt::format("The window with \"{}\" in its title or class was closed; open the chat again.", config_.window));
+  }
+  return lose_window(
+      fmt::format("No window has \"{}\" in its title or class; open the chat or correct the name.", config_.window));
+}
+
+Status X11Watch::lose_window(std::string why) {
+  pinned_.reset();
+  return Error{std::move(why)};
+}
+
+Status X11Watch::place_view(const X11WindowPlace& place) {
+  if (const Status readable = check_x11_pixels(connection_, place.depth, place.visual); !readable) {
+    return lose_window(readable.error().message);
+  }
+  const cv::Rect seen_px = place.inside_px & area_px_;
+  border_px_ = place.border_px;
+  view_.window = pinned_->id();
+  view_.part_px = seen_px - place.inside_px.tl();
+  view_.origin_px = seen_px.tl() - monitor_px_.tl();
+  view_.in_front = is_in_front(connection_, pinned_->id(), place.inside_px & monitor_px_);
+  pinned_->renew_pixmap();
+  was_found_ = true;
+  return Done{};
+}
+
+std::vector<cv::Rect> X11Watch::take_damage() {
+  if (root_damage_) {
+    return root_damage_->take(view_.part_px);
+  }
+  return pinned_ ? pinned_->damage().take(view_.part_px) : std::vector<cv::Rect>{};
+}
+
+cv::Mat X11Watch::read() {
+  if (!pinned_) {
+    return pixels_.read(view_.window, view_.part_px);
+  }
+  return pixels_.read(pinned_->pixmap(), view_.part_px + cv::Point(border_px_, border_px_));
+}
+
+}  // namespace telehug

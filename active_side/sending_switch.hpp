@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <atomic>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+
+#include "service/control_server.hpp"
+
+namespace telehug {
+
+enum class SendingMode {
+  automatic,  // while the pinned window is in front; of a live screen without a pinned window nothing
+  on,
+  off,
+};
+
+// What is known of the screen.
+struct ScreenView {
+  bool live = false;             // it shows what happens now, not a file
+  std::optional<bool> in_front;  // is the pinned window in front? none: no window is pinned
+};
+
+enum class SendingVerdict {
+  sends,
+  switched_off,
+  covered,       // another window covers the pinned one
+  never_pinned,  // no window is pinned, so that only `on` sends
+};
+
+// Do touches on the screen go out? So that cleaning it or using another program touches nobody.
+[[nodiscard]] SendingVerdict judge_sending(SendingMode mode, bool only_in_front, const ScreenView& screen);
+
+// The user's own switch: set on the local socket, followed by the touch path. Any thread.
+class SendingSwitch {
+ public:
+  // `at_start`: auto, on or off.
+  SendingSwitch(const std::string& at_start, bool only_in_front);
+
+  // Adds the command "send" to `control`, which this must outlive: {"command":"send","mode":"on"}, or auto, off,
+  // toggle.
+  void serve(ControlServer& control);
+
+  // Off if it was on or on its own, else on its own again.
+  void toggle();
+
+  [[nodiscard]] SendingMode mode() const noexcept { return mode_; }
+  [[nodiscard]] SendingVerdict judge(const ScreenView& screen) const {
+    return judge_sending(mode_, only_in_front_, screen);
+  }
+
+ private:
+  nlohmann::json set(const nlohmann::json& request);
+
+  std::atomic<SendingMode> mode_;
+  const bool only_in_front_;
+};
+
+[[nodiscard]] const char* name_of(SendingMode mode);
+
+}  // namespace telehug
