@@ -5,8 +5,12 @@
 #include <opencv2/core/types.hpp>
 #include <optional>
 
+#include "capture/make_frame_source.hpp"
 #include "config/locator.hpp"
+#include "screen/frame_grabber.hpp"
 #include "screen/picture_grabber.hpp"
+#include "screen/recorded_screen_grabber.hpp"
+#include "screen/x11_grabber.hpp"
 
 namespace telehug {
 namespace {
@@ -43,9 +47,27 @@ Result<std::unique_ptr<ScreenGrabber>> make_screen_grabber(const ActiveConfig& c
       picture.view = rect_of(*region);
       return Grabber(std::make_unique<PictureGrabber>(picture, clock));
     }
-    default:
+    case ScreenSourceKind::camera: {
+      CaptureSettings capture;
+      capture.webcam_size = {1920, 1080};
+      auto device = make_frame_source("webcam:" + source->place, capture, clock);
+      if (!device) return device.error();
+      return Grabber(std::make_unique<FrameGrabber>(
+          *std::move(device), FrameGrabberConfig{.region = rect_of(*region), .live = true}, clock));
+    }
+    case ScreenSourceKind::recording:
+      return Grabber(std::make_unique<RecordedScreenGrabber>(source->place, clock));
+    case ScreenSourceKind::portal:
       return Error{"not yet"};
+    case ScreenSourceKind::automatic:
+    case ScreenSourceKind::x11:
+      break;
   }
+  X11GrabberConfig screen;
+  screen.monitor = map.monitor;
+  screen.window = map.window;
+  screen.region = rect_of(*region);
+  return Grabber(std::make_unique<X11Grabber>(screen, clock));
 }
 
 }  // namespace telehug

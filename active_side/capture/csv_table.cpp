@@ -39,8 +39,9 @@ std::optional<Number> parse(std::string_view text) {
 }  // namespace
 
 CsvTable::CsvTable(const std::filesystem::path& path, const std::vector<std::string>& columns,
-                   std::vector<std::string>& faults)
+                   std::vector<std::string>& faults, const std::vector<std::string>& optional)
     : path_(path), columns_(columns), faults_(faults) {
+  columns_.insert(columns_.end(), optional.begin(), optional.end());
   std::ifstream file(path);
   std::string line;
   if (!std::getline(file, line)) {
@@ -50,12 +51,15 @@ CsvTable::CsvTable(const std::filesystem::path& path, const std::vector<std::str
   }
   const std::vector<std::string> header = split(line);
   std::vector<std::size_t> places;
-  for (const std::string& column : columns) {
+  bool complete = true;
+  for (const std::string& column : columns_) {
     const auto found = std::find(header.begin(), header.end(), column);
-    if (found == header.end()) add_line_fault(1, fmt::format("column '{}' is missing", column));
     places.push_back(static_cast<std::size_t>(found - header.begin()));
+    if (found != header.end() || places.size() > columns.size()) continue;
+    add_line_fault(1, fmt::format("column '{}' is missing", column));
+    complete = false;
   }
-  if (std::find(places.begin(), places.end(), header.size()) != places.end()) return;
+  if (!complete) return;
 
   for (int number = 2; std::getline(file, line); ++number) {
     if (trimmed(line).empty()) continue;
@@ -67,7 +71,7 @@ CsvTable::CsvTable(const std::filesystem::path& path, const std::vector<std::str
     }
     Row row{number, {}};
     for (const std::size_t place : places)
-      row.cells.push_back(cells[place]);
+      row.cells.push_back(place < cells.size() ? cells[place] : "");
     rows_.push_back(std::move(row));
   }
 }

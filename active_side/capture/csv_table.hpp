@@ -15,9 +15,10 @@ namespace telehug {
 class CsvTable {
  public:
   // A file that can't be read, a missing column and a row with too few or too many values are faults; such rows are
-  // left out. Columns that are not in `columns` are ignored.
-  CsvTable(const std::filesystem::path& path, const std::vector<std::string>& columns,
-           std::vector<std::string>& faults);
+  // left out. Of the `optional` columns, which are counted after `columns`, those that are missing are empty in all
+  // rows. Further columns are ignored.
+  CsvTable(const std::filesystem::path& path, const std::vector<std::string>& columns, std::vector<std::string>& faults,
+           const std::vector<std::string>& optional = {});
 
   [[nodiscard]] std::size_t rows() const noexcept { return rows_.size(); }
 

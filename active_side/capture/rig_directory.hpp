@@ -10,6 +10,7 @@
 //   frames/NAME.jpg         single pictures in no order, with truth.csv (optional)
 //   hard/, sequence/        as frames/, but truth.csv lies beside the pictures; `sequence` is in order
 //   times.csv               frame,monotonic_ns: when each picture of `sequence` was taken (optional)
+//   screen/, screen_times.csv   what the screen showed meanwhile, see screen/recorded_screen.hpp (optional)
 //
 // Pictures may be JPEG (.jpg, .jpeg) or PNG; a frame is called what its file is called, without the extension.
 #pragma once

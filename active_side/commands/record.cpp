@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <CLI/CLI.hpp>
+#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <memory>
@@ -9,6 +10,8 @@
 #include "commands/config_options.hpp"
 #include "config/places.hpp"
 #include "pictures/jpeg_encoder.hpp"
+#include "screen/screen_recording.hpp"
+#include "screen_source.hpp"
 #include "service/signals.hpp"
 
 namespace telehug {
@@ -20,6 +23,7 @@ struct Options {
   ConfigOptions config;
   std::string source;
   std::string folder;
+  bool screen = false;
   double seconds = 10;
   int frames = 25;  // of a virtual rig
   int hard = 6;
@@ -48,7 +52,9 @@ Status write_rig_toml(const std::filesystem::path& folder, const ActiveConfig& c
   return write_bytes(folder / "rig.toml", {text.begin(), text.end()});
 }
 
-Result<int> record(FrameSource& camera, const Options& options, Signals& signals, const Clock& clock) {
+// `screen`: what is recorded meanwhile, if anything.
+Result<int> record(FrameSource& camera, const ScreenRecording* screen, const Options& options, Signals& signals,
+                   const Clock& clock) {
   const std::filesystem::path pictures = std::filesystem::path(options.folder) / "sequence";
   std::ofstream times(std::filesystem::path(options.folder) / "times.csv");
   times << "frame,monotonic_ns\n";
@@ -57,6 +63,7 @@ Result<int> record(FrameSource& camera, const Options& options, Signals& signals
   const Timestamp end =
       clock.now() + std::chrono::duration_cast<Duration>(std::chrono::duration<double>(options.seconds));
   while (clock.now() < end && signals.take() != SignalRequest::stop) {
+    if (screen != nullptr && screen->failed()) break;
     const ReadOutcome outcome = camera.read(frame, 200ms);
     if (outcome == ReadOutcome::ended) break;
     if (outcome == ReadOutcome::lost) return Error{camera.last_error()};
@@ -70,6 +77,18 @@ Result<int> record(FrameSource& camera, const Options& options, Signals& signals
   times.close();
   if (!times) return Error{"times.csv can't be written: is the disk full?"};
   return count;
+}
+
+// Ready to be recorded, with what is about to be written said.
+Result<std::unique_ptr<ScreenRecording>> open_screen(const ActiveConfig& config, const Options& options,
+                                                     const Clock& clock) {
+  auto grabber = make_screen_grabber(config, clock);
+  if (!grabber) return grabber.error();
+  auto screen = std::make_unique<ScreenRecording>(*std::move(grabber), options.folder, config.body_map.rate_hz, clock);
+  if (const Status opened = screen->open(); !opened) return opened.error();
+  fmt::print("pictures of the screen ({}), and so of the person in it, are written to {}; only you can read them\n",
+             screen->name(), (std::filesystem::path(options.folder) / "screen").string());
+  return screen;
 }
 
 // A virtual rig knows the truth and need not wait for the clock: it is written with its calibration, single frames and
@@ -99,8 +118,11 @@ ExitCode run(const Options& options) {
   if (std::filesystem::exists(std::filesystem::path(options.folder) / "sequence")) {
     return fail(ExitCode::device, Error{options.folder + " holds a recording already; choose another folder"});
   }
+  if (options.screen && source.starts_with("virtual")) {
+    return fail(ExitCode::config, Error{"a virtual rig looks at no screen; leave out --screen, or record a camera"});
+  }
   if (source.starts_with("virtual")) return export_virtual_rig(source, options);
-  std::filesystem::create_directories(std::filesystem::path(options.folder) / "sequence", problem);
+  std::filesystem::create_directories(options.folder, problem);
   if (problem) return fail(ExitCode::device, Error{options.folder + ": " + problem.message()});
   if (auto written = write_rig_toml(options.folder, *config); !written) return fail(ExitCode::device, written.error());
 
@@ -110,8 +132,24 @@ ExitCode run(const Options& options) {
   if (const Status opened = (*camera)->open(); !opened) return fail(ExitCode::device, opened.error());
   fmt::print("recording {} to {} for {:.0f} s; these are pictures of your desk and hands\n", (*camera)->name(),
              options.folder, options.seconds);
-  const auto count = record(**camera, options, signals, clock);
+  std::unique_ptr<ScreenRecording> screen;
+  if (options.screen) {
+    auto opened = open_screen(*config, options, clock);
+    if (!opened) return fail(ExitCode::device, opened.error());
+    screen = std::move(*opened);
+  }
+  // Only now: a folder that holds a sequence can't be recorded to again.
+  std::filesystem::create_directory(std::filesystem::path(options.folder) / "sequence", problem);
+  if (problem) return fail(ExitCode::device, Error{options.folder + ": " + problem.message()});
+  std::fflush(stdout);  // whoever is recorded reads it before, not after
+  if (screen) screen->start();
+  const auto count = record(**camera, screen.get(), options, signals, clock);
   if (!count) return fail(ExitCode::device, count.error());
+  if (screen) {
+    const auto seen = screen->end();
+    if (!seen) return fail(ExitCode::device, seen.error());
+    fmt::print("{} pictures of the screen\n", *seen);
+  }
   fmt::print("{} pictures; replay them with `telehug-active run --source replay:{}`\n", *count, options.folder);
   return *count > 0 ? ExitCode::ok : ExitCode::device;
 }
@@ -124,6 +162,8 @@ void add_record(CLI::App& app, ExitCode& result) {
   command->add_option("folder", options->folder, "Where to")->required()->type_name("DIR");
   command->add_option("--source", options->source,
                       "Instead of the configured camera: webcam, replay:DIR, virtual or virtual:SEED");
+  command->add_flag("--screen", options->screen,
+                    "Also keep what the screen shows, and so the person in it; only you can read these pictures");
   command->add_option("--seconds", options->seconds, "How long; Ctrl-C ends it earlier")
       ->check(CLI::Range(0.0, 3600.0))
       ->capture_default_str();

@@ -10,6 +10,7 @@
 
 #include "pictures/picture_file.hpp"
 #include "screen/picture_files.hpp"
+#include "screen/watched_part.hpp"
 
 namespace telehug {
 namespace fs = std::filesystem;
@@ -78,18 +79,13 @@ GrabOutcome PictureGrabber::grab(ScreenPicture& picture) {
   if (!read) {
     return lose(read.error().message);
   }
-  const cv::Rect whole(0, 0, read->cols, read->rows);
-  // In 64 bits: the corner of a view from a config file may lie beyond what an int holds.
-  const cv::Rect_<std::int64_t> view = config_.view.value_or(whole);
-  const cv::Rect_<std::int64_t> seen = view & cv::Rect_<std::int64_t>(whole);
-  if (seen.empty()) {
-    return lose(
-        fmt::format("The view of {}x{} px at {},{} lies outside of the picture {} ({}x{} px); correct the view.",
-                    view.width, view.height, view.x, view.y, stamp.path.string(), whole.width, whole.height));
+  const auto part = watched_part(config_.view, read->size(), fmt::format("the picture {}", stamp.path.string()));
+  if (!part) {
+    return lose(part.error().message);
   }
-  picture.bgr = (*read)(cv::Rect(seen));
-  picture.origin_px = cv::Rect(seen).tl();
-  picture.monitor = {.width_px = whole.width, .height_px = whole.height};
+  picture.bgr = (*read)(*part);
+  picture.origin_px = part->tl();
+  picture.monitor = {.width_px = read->cols, .height_px = read->rows};
   picture.in_front.reset();
   shown_ = std::move(stamp);
   return GrabOutcome::changed;

@@ -23,3 +23,5 @@ telehug_test(test_app_bad_input KIND integration SUBJECT ops
   SOURCES integration/app/bad_input_test.cpp DEPS running_pair)
 telehug_test(test_app_local_touch KIND integration SUBJECT touch
   SOURCES integration/app/local_touch_test.cpp DEPS running_pair PkgConfig::liblo)
+telehug_test(test_app_record_screen KIND integration SUBJECT face
+  SOURCES integration/app/record_screen_test.cpp DEPS running_pair active_screen)

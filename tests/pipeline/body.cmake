@@ -5,5 +5,7 @@ telehug_test(test_face_pipeline KIND pipeline SUBJECT face
     pipeline/eval_face/eval_face_test.cpp
   DEPS active_eval_face active_body_map telehug_pictures)
 telehug_test(test_screen KIND pipeline SUBJECT face
-  SOURCES pipeline/screen/picture_grabber_test.cpp
-  DEPS active_screen telehug_pictures)
+  SOURCES pipeline/screen/frame_grabber_sources_test.cpp pipeline/screen/frame_grabber_test.cpp
+    pipeline/screen/picture_grabber_test.cpp pipeline/screen/recorded_screen_grabber_test.cpp pipeline/screen/screen_recorder_test.cpp
+    pipeline/screen/screen_recording_test.cpp
+  DEPS active_screen active_capture telehug_pictures fmt::fmt)
