@@ -46,8 +46,7 @@ def arguments():
 
 
 def looking(given, xvfb, settings=()):
-    screen = ["body_map.source=x11", "screen.width_mm=480", "screen.height_mm=270"]
-    return Looker(given.telehug, xvfb.display, [*screen, *settings], RUN_S)
+    return Looker(given.telehug, xvfb.display, xvfb.folder, ["body_map.source=x11", *settings], RUN_S)
 
 
 def on_the_whole_monitor(given, xvfb, persons, rng, results):

@@ -10,17 +10,18 @@ import time
 from true_grid import Grid
 
 # `looked_ns`: when the screen was looked at; `told_ns`: when this was heard of it. `grid` is None while there is none;
-# `seen_ns`: when the face was last there.
+# `seen_ns`: when the face was last there, 0 while there is no grid.
 Look = collections.namedtuple("Look", "looked_ns told_ns seen_ns version grid problem")
 
 
 class Looker:
-    """Runs `telehug-active look` while it is entered. `settings`: what its `--set` takes."""
+    """Runs `telehug-active look` while it is entered. `settings`: what its `--set` takes. `home`: a folder without
+    anybody's configuration and calibration."""
 
-    def __init__(self, program, display, settings, seconds):
+    def __init__(self, program, display, home, settings, seconds):
         options = [word for setting in settings for word in ("--set", setting)]
         self._command = [program, "look", "--seconds", str(seconds), *options]
-        self._environment = os.environ | {"DISPLAY": display}
+        self._environment = {"PATH": os.environ["PATH"], "HOME": home, "DISPLAY": display}
         self._looks = []
         self._news = threading.Condition()
         self._ended = False
@@ -91,4 +92,4 @@ def _parse(line):
         box, side = said["grid"], said["box_px"]
         grid = Grid(middle_px=box["x"] + box["w"] / 2, chin_px=box["y"], side_px=side, bottom_px=box["y"] + box["h"])
         assert said["columns"] == 5 and abs(box["w"] - 5 * side) < 2, f"this is no grid of five columns: {line}"
-    return Look(said["time_ns"], told_ns, said["seen_ns"], said["version"], grid, said["problem"])
+    return Look(said["time_ns"], told_ns, said.get("seen_ns", 0), said["version"], grid, said["problem"])

@@ -15,7 +15,7 @@ class Xvfb:
 
     def __init__(self, folder, width_px, height_px):
         self.width_px, self.height_px = width_px, height_px
-        self._folder = folder
+        self.folder = folder
         self._process = None
         self.display = ""
 
@@ -23,7 +23,7 @@ class Xvfb:
         reader, writer = os.pipe()
         self._process = subprocess.Popen(
             ["Xvfb", "-displayfd", str(writer), "-screen", "0", f"{self.width_px}x{self.height_px}x24", "-fbdir",
-             self._folder, "-nolisten", "tcp", "-noreset"],
+             self.folder, "-nolisten", "tcp", "-noreset"],
             pass_fds=[writer], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
         os.close(writer)
         try:
@@ -45,7 +45,7 @@ class Xvfb:
 
     def rows(self):
         """The rows of the picture now: bytes of B, G, R and one without a meaning, a pixel after the other."""
-        with open(os.path.join(self._folder, "Xvfb_screen0"), "rb") as file:
+        with open(os.path.join(self.folder, "Xvfb_screen0"), "rb") as file:
             data = file.read()
         header = struct.unpack_from(">25I", data)
         begin, bits_per_pixel, row_bytes, colours = header[0] + 12 * header[19], header[11], header[12], header[19]
