@@ -39,7 +39,7 @@ def arguments():
     parser = argparse.ArgumentParser(description=__doc__.split("\n", 1)[0])
     parser.add_argument("--telehug", required=True, help="the program telehug-active")
     parser.add_argument("--fixtures", required=True, help="the folder tests/fixtures")
-    parser.add_argument("--samples", help="a folder of labelled chat screens whose persons are shown, too")
+    parser.add_argument("--samples", help="a folder of labelled chat screens whose persons are shown, too, if it is there")
     parser.add_argument("--seed", type=int, default=1, help="of places and points")
     parser.add_argument("--screenshot", help="PNG file for a picture of the display")
     return parser.parse_args()
@@ -83,7 +83,7 @@ def main():
         signal.signal(number, lambda number, _: sys.exit(f"ended by signal {number}"))
     signal.alarm(RUN_S)
     persons = read_persons(given.fixtures)
-    if given.samples:
+    if given.samples and os.path.exists(given.samples):
         persons += read_samples(given.samples)
     rng = random.Random(given.seed)
     results = report.Results([], [], [])
