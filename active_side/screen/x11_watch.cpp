@@ -110,8 +110,12 @@ Status X11Watch::find_monitor() {
 // The window that was found stays the one as long as it can be seen; else the topmost that can be.
 Status X11Watch::find_window() {
   std::vector<xcb_window_t> candidates = windows_.named(config_.window);
-  std::stable_partition(candidates.begin(), candidates.end(),
-                        [this](xcb_window_t window) { return pinned_ && pinned_->id() == window; });
+  if (pinned_) {
+    const auto held = std::find(candidates.begin(), candidates.end(), pinned_->id());
+    if (held != candidates.end()) {
+      std::rotate(candidates.begin(), held, held + 1);
+    }
+  }
   bool hidden = false;
   bool elsewhere = false;
   for (const xcb_window_t candidate : candidates) {

@@ -101,7 +101,7 @@ TEST_F(X11GrabberTest, TakesTheScreensNewResolution) {
   xcb_randr_mode_info_t info{};
   info.width = 640;
   info.height = 480;
-  const std::string_view name = "640x480";
+  const std::string name = "640x480";
   info.name_len = static_cast<std::uint16_t>(name.size());
   const std::unique_ptr<xcb_randr_create_mode_reply_t, decltype(&std::free)> mode(
       xcb_randr_create_mode_reply(
