@@ -65,4 +65,25 @@ Result<X11Monitor> choose_x11_monitor(const std::vector<X11Monitor>& monitors, c
   return Error{fmt::format("There is no monitor {}; plug it in or choose one of these: {}.", name, there)};
 }
 
+void X11MonitorNews::ask_for(std::uint32_t further_events) {
+  if (const auto* extension = connection_.extension(xcb_randr_id)) {
+    first_event_ = extension->first_event;
+  }
+  xcb_randr_select_input(
+      connection_.get(), connection_.root(),
+      XCB_RANDR_NOTIFY_MASK_SCREEN_CHANGE | XCB_RANDR_NOTIFY_MASK_CRTC_CHANGE | XCB_RANDR_NOTIFY_MASK_OUTPUT_CHANGE);
+  const std::uint32_t events = XCB_EVENT_MASK_STRUCTURE_NOTIFY | further_events;
+  xcb_change_window_attributes(connection_.get(), connection_.root(), XCB_CW_EVENT_MASK, &events);
+}
+
+bool X11MonitorNews::has(const xcb_generic_event_t& event) const noexcept {
+  if (is_x11_event(event, first_event_ + XCB_RANDR_SCREEN_CHANGE_NOTIFY) ||
+      is_x11_event(event, first_event_ + XCB_RANDR_NOTIFY)) {
+    return true;
+  }
+  // Monitors that somebody has laid out by hand are told of by the root window alone.
+  return is_x11_event(event, XCB_CONFIGURE_NOTIFY) &&
+         reinterpret_cast<const xcb_configure_notify_event_t&>(event).window == connection_.root();
+}
+
 }  // namespace telehug

@@ -2,65 +2,22 @@
 #include "screen/x11_watch.hpp"
 
 #include <fmt/format.h>
-#include <xcb/composite.h>
-#include <xcb/randr.h>
-#include <xcb/shape.h>
 
 #include <algorithm>
-#include <array>
 #include <cstdint>
 #include <utility>
 
+#include "screen/x11_extensions.hpp"
 #include "screen/x11_stacking.hpp"
 
 namespace telehug {
-namespace {
-
-// The extensions that are used must be told which version of them is spoken.
-Status agree_on_extensions(const X11Connection& connection) {
-  xcb_connection_t* const server = connection.get();
-  struct Needed {
-    xcb_extension_t* id;
-    const char* name;
-  };
-  constexpr std::array needed{Needed{&xcb_damage_id, "DAMAGE"}, Needed{&xcb_xfixes_id, "XFIXES"},
-                              Needed{&xcb_randr_id, "RANDR"}, Needed{&xcb_composite_id, "Composite"},
-                              Needed{&xcb_shape_id, "SHAPE"}};
-  for (const Needed& extension : needed) {
-    if (connection.extension(*extension.id) == nullptr) {
-      return Error{fmt::format("The X11 display {} lacks the extension {}, without which it can't be watched.",
-                               connection.display(), extension.name)};
-    }
-  }
-  const auto asked_damage = xcb_damage_query_version(server, 1, 1);
-  const auto asked_xfixes = xcb_xfixes_query_version(server, 2, 0);
-  const auto asked_randr = xcb_randr_query_version(server, 1, 5);
-  const auto asked_composite = xcb_composite_query_version(server, 0, 2);
-  const XcbOwned<xcb_damage_query_version_reply_t> damage(
-      xcb_damage_query_version_reply(server, asked_damage, nullptr));
-  const XcbOwned<xcb_xfixes_query_version_reply_t> xfixes(
-      xcb_xfixes_query_version_reply(server, asked_xfixes, nullptr));
-  const XcbOwned<xcb_randr_query_version_reply_t> randr(xcb_randr_query_version_reply(server, asked_randr, nullptr));
-  const XcbOwned<xcb_composite_query_version_reply_t> composite(
-      xcb_composite_query_version_reply(server, asked_composite, nullptr));
-  const bool new_enough = damage && xfixes && xfixes->major_version >= 2 && randr &&
-                          (randr->major_version > 1 || randr->minor_version >= 5) && composite &&
-                          (composite->major_version > 0 || composite->minor_version >= 2);
-  if (!new_enough) {
-    return Error{fmt::format("The X11 display {} is too old to be watched (RandR 1.5 and Composite 0.2 are needed).",
-                             connection.display())};
-  }
-  return Done{};
-}
-
-}  // namespace
 
 Result<std::unique_ptr<X11Watch>> X11Watch::connect(const X11GrabberConfig& config) {
   auto connection = X11Connection::open(config.display);
   if (!connection) {
     return connection.error();
   }
-  if (const Status agreed = agree_on_extensions(*connection); !agreed) {
+  if (const Status agreed = agree_on_x11_extensions(*connection); !agreed) {
     return agreed.error();
   }
   std::unique_ptr<X11Watch> watch(new X11Watch(std::move(*connection), config));
@@ -71,24 +28,19 @@ Result<std::unique_ptr<X11Watch>> X11Watch::connect(const X11GrabberConfig& conf
 }
 
 X11Watch::X11Watch(X11Connection connection, const X11GrabberConfig& config)
-    : connection_(std::move(connection)), config_(config), pixels_(connection_), windows_(connection_) {}
+    : connection_(std::move(connection)),
+      config_(config),
+      pixels_(connection_),
+      windows_(connection_),
+      monitor_news_(connection_) {}
 
 Status X11Watch::start() {
-  const xcb_window_t root = connection_.root();
-  if (const auto* extension = connection_.extension(xcb_randr_id)) {
-    randr_event_ = extension->first_event;
-  }
-  xcb_randr_select_input(
-      connection_.get(), root,
-      XCB_RANDR_NOTIFY_MASK_SCREEN_CHANGE | XCB_RANDR_NOTIFY_MASK_CRTC_CHANGE | XCB_RANDR_NOTIFY_MASK_OUTPUT_CHANGE);
-  std::uint32_t events = XCB_EVENT_MASK_STRUCTURE_NOTIFY;
   if (!config_.window.empty()) {
-    events |= XCB_EVENT_MASK_SUBSTRUCTURE_NOTIFY | XCB_EVENT_MASK_PROPERTY_CHANGE;
-    xcb_change_window_attributes(connection_.get(), root, XCB_CW_EVENT_MASK, &events);
+    monitor_news_.ask_for(XCB_EVENT_MASK_SUBSTRUCTURE_NOTIFY | XCB_EVENT_MASK_PROPERTY_CHANGE);
     return Done{};
   }
-  xcb_change_window_attributes(connection_.get(), root, XCB_CW_EVENT_MASK, &events);
-  root_damage_.emplace(connection_, root);
+  monitor_news_.ask_for(XCB_EVENT_MASK_NO_EVENT);
+  root_damage_.emplace(connection_, connection_.root());
   return check_x11_pixels(connection_, connection_.screen().root_depth, connection_.screen().root_visual);
 }
 
@@ -96,14 +48,7 @@ void X11Watch::note(const xcb_generic_event_t& event) {
   if ((root_damage_ && root_damage_->note(event)) || (pinned_ && pinned_->damage().note(event))) {
     return;
   }
-  const bool is_randr = is_x11_event(event, randr_event_ + XCB_RANDR_SCREEN_CHANGE_NOTIFY) ||
-                        is_x11_event(event, randr_event_ + XCB_RANDR_NOTIFY);
-  const bool of_root =
-      is_x11_event(event, XCB_CONFIGURE_NOTIFY) &&
-      reinterpret_cast<const xcb_configure_notify_event_t&>(event).window == connection_.root();  // or its monitors
-  if (is_randr || of_root) {
-    monitors_stale_ = true;
-  }
+  monitors_stale_ = monitors_stale_ || monitor_news_.has(event);
   if (is_x11_event(event, XCB_PROPERTY_NOTIFY)) {
     const auto& property = reinterpret_cast<const xcb_property_notify_event_t&>(event);
     if (property.window == connection_.root() && property.atom != windows_.stacking()) {
@@ -165,8 +110,12 @@ Status X11Watch::find_monitor() {
 // The window that was found stays the one as long as it can be seen; else the topmost that can be.
 Status X11Watch::find_window() {
   std::vector<xcb_window_t> candidates = windows_.named(config_.window);
-  std::stable_partition(candidates.begin(), candidates.end(),
-                        [this](xcb_window_t window) { return pinned_ && pinned_->id() == window; });
+  if (pinned_) {
+    const auto held = std::find(candidates.begin(), candidates.end(), pinned_->id());
+    if (held != candidates.end()) {
+      std::rotate(candidates.begin(), held, held + 1);
+    }
+  }
   bool hidden = false;
   bool elsewhere = false;
   for (const xcb_window_t candidate : candidates) {

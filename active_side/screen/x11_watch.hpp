@@ -65,7 +65,7 @@ class X11Watch {
   X11GrabberConfig config_;
   X11Pixels pixels_;
   X11Windows windows_;
-  int randr_event_ = 0;
+  X11MonitorNews monitor_news_;
   bool monitors_stale_ = true;
   bool places_stale_ = true;  // of windows
   std::string monitor_name_;

@@ -64,6 +64,7 @@ std::vector<xcb_window_t> X11Windows::topmost_first() const {
   std::vector<xcb_window_t> level{connection_.root()};
   for (int depth = 0; depth < deepest && !level.empty(); ++depth) {
     std::vector<xcb_query_tree_cookie_t> asked;
+    asked.reserve(level.size());
     for (const xcb_window_t window : level) {
       asked.push_back(xcb_query_tree(server, window));
     }
@@ -76,6 +77,7 @@ std::vector<xcb_window_t> X11Windows::topmost_first() const {
       }
     }
     std::vector<xcb_get_window_attributes_cookie_t> asked_attributes;
+    asked_attributes.reserve(level.size());
     for (const xcb_window_t window : level) {
       asked_attributes.push_back(xcb_get_window_attributes(server, window));
     }

@@ -46,6 +46,7 @@ class Xvfb {
     if (!display_.empty()) arguments.insert(arguments.begin() + 1, display_);
     arguments.insert(arguments.end(), options_.begin(), options_.end());
     std::vector<char*> pointers;
+    pointers.reserve(arguments.size() + 1);
     for (auto& argument : arguments)
       pointers.push_back(argument.data());
     pointers.push_back(nullptr);
