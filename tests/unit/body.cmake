@@ -6,3 +6,6 @@ telehug_test(test_body_map KIND unit SUBJECT face
 telehug_test(test_eval_face KIND unit SUBJECT face
   SOURCES unit/eval_face/face_labels_test.cpp unit/eval_face/face_scores_test.cpp
   DEPS active_eval_face)
+telehug_test(test_screen_share KIND unit SUBJECT face
+  SOURCES unit/screen/frame_in_memory_test.cpp unit/screen/frame_slot_test.cpp unit/screen/restore_token_test.cpp
+  DEPS active_screen)
