@@ -39,6 +39,10 @@ std::filesystem::path camera_before_file(const RigConfig& config) {
   return rig_file(config).replace_filename("camera-before.toml");
 }
 
+std::filesystem::path screen_consent_file() {
+  return state_folder() / "screen-consent";
+}
+
 std::filesystem::path jacket_profile_file(const JacketConfig& config) {
   const std::filesystem::path installed = std::filesystem::path(TELEHUG_DATA_DIR) / "jackets";
   if (config.profile.empty()) return installed / "duemilanove-16.toml";

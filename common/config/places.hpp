@@ -18,6 +18,10 @@ namespace telehug {
 [[nodiscard]] std::filesystem::path tuned_camera_file(const RigConfig& config);
 [[nodiscard]] std::filesystem::path camera_before_file(const RigConfig& config);
 
+// What a Wayland desktop gave to be spared its question for the screen: in the first of the folders named for the
+// calibration file, wherever that lies.
+[[nodiscard]] std::filesystem::path screen_consent_file();
+
 // The jacket profile: as configured, else the installed one of the 16-motor jacket. A relative path that does not
 // exist from here, such as "duemilanove-16.toml", is looked for among the installed profiles.
 [[nodiscard]] std::filesystem::path jacket_profile_file(const JacketConfig& config);

@@ -19,6 +19,13 @@ TEST(RigFile, IsAsConfiguredElseInTheStateFolder) {
   EXPECT_TRUE(rig_file({}).is_absolute());
 }
 
+TEST(ScreenConsentFile, LiesInTheStateFolder) {
+  setenv("STATE_DIRECTORY", "/var/lib/telehug", 1);
+  EXPECT_EQ(screen_consent_file(), "/var/lib/telehug/screen-consent");
+  unsetenv("STATE_DIRECTORY");
+  EXPECT_TRUE(screen_consent_file().is_absolute());
+}
+
 TEST(JacketProfileFile, IsAsConfiguredElseTheInstalledOne) {
   JacketConfig config;
   EXPECT_TRUE(jacket_profile_file(config).is_absolute());
