@@ -45,6 +45,10 @@ ActiveDaemon::ActiveDaemon(const ActiveConfig& config, std::unique_ptr<FrameSour
       calibration_path_(rig_file(config.rig)),
       felt_reader_(std::make_unique<Reader<Felt>>(participant_, [this](const Felt& felt) { felt_.push(felt); })),
       control_(std::make_unique<ControlServer>(control_options(config.control, Side::active))) {
+  if (config_.overlay.show)
+    overlay_.emplace(X11OverlayConfig{.display = {}, .monitor = config_.body_map.monitor}, clock);
+  if (!config_.sending.hotkey.empty())
+    hotkey_.emplace(X11HotkeyConfig{.display = {}, .keys = config_.sending.hotkey}, clock);
   answer_commands();
 }
 
@@ -68,6 +72,7 @@ ExitCode ActiveDaemon::run(Signals& signals) {
     load_rig_if_changed();
     tell_watchers();
     tell_local_touch();
+    serve_desktop();
     tell_peer();
   }
   notifier_.stopping();

@@ -19,6 +19,8 @@
 #include "dds/reader.hpp"
 #include "dds/writer.hpp"
 #include "local_touch/local_touch.hpp"
+#include "overlay/x11_hotkey.hpp"
+#include "overlay/x11_overlay.hpp"
 #include "peer_link/peer_link.hpp"
 #include "rig.hpp"
 #include "sending_switch.hpp"
@@ -28,6 +30,7 @@
 #include "service/metrics.hpp"
 #include "service/notifier.hpp"
 #include "service/signals.hpp"
+#include "touched_box.hpp"
 
 namespace telehug {
 
@@ -89,6 +92,8 @@ class ActiveDaemon {
   void load_rig_if_changed();
   void tell_watchers();
   void tell_local_touch();
+  void show_touched_box(const FaceState& face, FaceWorker* worker);
+  void serve_desktop();
   void tell_peer();
   void answer_commands();
   nlohmann::json order_face(const nlohmann::json& request);
@@ -148,11 +153,17 @@ class ActiveDaemon {
   std::string rig_problem_;
   std::optional<SideStatus> peer_status_;
   bool told_recording_over_ = false;
+  TouchedBox touched_box_;
+  std::optional<X11Overlay> overlay_;  // if it is wanted
+  std::optional<X11Hotkey> hotkey_;    // likewise
+  Timestamp desktop_served_;
+  std::string desktop_problem_;  // of these two; guarded by words_mutex_
   SayOnChange say_camera_;
   SayOnChange say_peer_;
   SayOnChange say_face_;
   SayOnChange say_rig_;
   SayOnChange say_local_touch_;
+  SayOnChange say_desktop_;
 
   std::unique_ptr<Reader<Felt>> felt_reader_;
   std::unique_ptr<ControlServer> control_;

@@ -4,6 +4,7 @@
 #include <fmt/core.h>
 
 #include "active_daemon.hpp"
+#include "body_map/vitruvian_grid.hpp"
 #include "common/names.hpp"
 #include "daemon/status_parts.hpp"
 
@@ -11,6 +12,8 @@ namespace telehug {
 namespace {
 
 using Json = nlohmann::json;
+
+constexpr Duration desktop_interval = 1s;
 
 Json touch_json(const SentTouch& touch) {
   const Contact& contact = touch.contact;
@@ -128,7 +131,10 @@ Json ActiveDaemon::problems(const TouchThreadState& state, const FaceState& face
     const std::lock_guard lock(words_mutex_);
     if (!rig_problem_.empty())
       list.push_back(problem_json(rig_problem_, "run `telehug-active calibrate`, or correct the file"));
+    if (!desktop_problem_.empty())
+      list.push_back(problem_json(desktop_problem_, "or turn off [overlay] show and [sending] hotkey"));
   }
+  if (!face.remark.empty()) list.push_back(problem_json(face.remark, "nothing needs to be done: all works"));
   if (stop_.stopped()) list.push_back(problem_json("stopped here: " + stop_.reason(), "run `telehug resume`"));
   if (peer_.stopped_by_peer()) list.push_back(peer_stop_problem_json(told));
   if (!state.peer.alive) {
@@ -233,9 +239,42 @@ void ActiveDaemon::tell_local_touch() {
   }
 }
 
+void ActiveDaemon::show_touched_box(const FaceState& face, FaceWorker* worker) {
+  if (!overlay_) return;
+  if (face.map.version == 0) touched_box_.clear();
+  const auto& shown = touched_box_.shown();
+  const auto box = shown ? box_rect(face.map, shown->box) : std::nullopt;
+  if (box && face.scale) {
+    const cv::Rect2d box_px = face.scale->to_px(*box);
+    overlay_->show({cv::Point(box_px.tl()), cv::Point(box_px.br())},
+                   shown->felt ? OverlayState::felt : OverlayState::touched);
+  } else {
+    overlay_->hide();
+  }
+  if (worker != nullptr) worker->leave_out(overlay_->areas());
+}
+
+// What this desktop does for us besides showing the chat; what is not there is looked for once a second.
+void ActiveDaemon::serve_desktop() {
+  if (hotkey_ && hotkey_->is_open() && hotkey_->pressed()) sending_switch_.toggle();
+  const Timestamp now = clock_.now();
+  if (now - desktop_served_ < desktop_interval) return;
+  desktop_served_ = now;
+  std::string problem;
+  const auto note = [&problem](const Status& opened, const std::string& last_error) {
+    if (problem.empty()) problem = opened ? last_error : opened.error().message;
+  };
+  if (overlay_) note(overlay_->open(), overlay_->last_error());
+  if (hotkey_) note(hotkey_->open(), hotkey_->last_error());
+  if (!problem.empty()) say_desktop_.say(spdlog::level::warn, problem);
+  const std::lock_guard lock(words_mutex_);
+  desktop_problem_ = std::move(problem);
+}
+
 void ActiveDaemon::tell_watchers() {
   SentTouch touch;
   while (sent_touches_.pop(touch)) {
+    touched_box_.sent(touch.contact);
     if (!control_->has_watchers()) continue;
     Json event = touch_json(touch);
     event["event"] = "touch";
@@ -243,8 +282,10 @@ void ActiveDaemon::tell_watchers() {
     control_->broadcast(std::move(event));
   }
   Felt felt;
-  while (felt_.pop(felt))
+  while (felt_.pop(felt)) {
+    touched_box_.felt(felt);
     control_->broadcast(felt_json(felt));
+  }
 
   TouchThreadState state;
   {
@@ -256,6 +297,7 @@ void ActiveDaemon::tell_watchers() {
   }
   told_recording_over_ = state.recording_over;
   const FaceState face = state.face ? state.face->state() : FaceState{};
+  show_touched_box(face, state.face.get());
   say_peer_.say(spdlog::level::info, state.peer.alive ? "peer connected" : "no peer");
   say_camera_.say(state.camera_lost ? spdlog::level::warn : spdlog::level::info, state.camera_lost
                                                                                      ? state.camera_problem

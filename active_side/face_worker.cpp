@@ -65,6 +65,11 @@ void FaceWorker::order(FaceOrder order) {
   changed_.notify_one();
 }
 
+void FaceWorker::leave_out(std::vector<cv::Rect> areas_px) {
+  const std::lock_guard lock(mutex_);
+  left_out_px_ = std::move(areas_px);
+}
+
 FaceState FaceWorker::state() const {
   const std::lock_guard lock(mutex_);
   return state_;
@@ -75,7 +80,9 @@ void FaceWorker::work() {
   while (!ending_) {
     const bool wanted = wanted_;
     const std::vector<FaceOrder> orders = std::exchange(orders_, {});
+    auto left_out_px = std::exchange(left_out_px_, std::nullopt);
     lock.unlock();
+    if (left_out_px) grabber_->leave_out(*std::move(left_out_px));
     const Timestamp started = clock_.now();
     obey(orders);
     if (wanted) {
@@ -133,8 +140,16 @@ void FaceWorker::look() {
   latency_.record(clock_.now() - started);
   const RemoteFaceFollower& follower = step_.follower();
   const std::lock_guard lock(mutex_);
-  state_ = {grabber_->name(), grabber_->is_open(), std::move(problem), finder_->name(), map,
-            step_.monitor(),  follower.choices(),  follower.pinned()};
+  const auto scale = step_.scale();
+  state_ = {.screen = grabber_->name(),
+            .open = grabber_->is_open(),
+            .problem = std::move(problem),
+            .finder = finder_->name(),
+            .map = map,
+            .scale = scale ? std::optional(*scale) : std::nullopt,
+            .remark = grabber_->remark(),
+            .choices = follower.choices(),
+            .pinned = follower.pinned()};
 }
 
 void FaceWorker::rest() {
@@ -143,7 +158,9 @@ void FaceWorker::rest() {
   front_ = Front::unknown;
   last_face_ = clock_.now();
   const std::lock_guard lock(mutex_);
-  state_ = {grabber_->name(), false, "", finder_->name(), BodyMap{}, {}, 0, false};
+  state_ = {};
+  state_.screen = grabber_->name();
+  state_.finder = finder_->name();
 }
 
 }  // namespace telehug

@@ -24,8 +24,9 @@ struct FaceState {
   std::string problem;  // why there is no face; empty if there is one
   std::string finder;
   BodyMap map;
-  ImageSize monitor;  // its pixels; 0x0: not known
-  int choices = 0;    // faces that may be followed, the followed one included
+  std::optional<ScreenScale> scale;  // of the monitor's pixels, if it is looked at
+  std::string remark;                // what the user should know of the screen although all works; may be empty
+  int choices = 0;                   // faces that may be followed, the followed one included
   bool pinned = false;
 };
 
@@ -54,6 +55,9 @@ class FaceWorker {
 
   // As of the last look.
   [[nodiscard]] ScreenView view() const noexcept;
+
+  // Where telehug itself draws on the monitor, px: not looked at from the next look on. From any thread.
+  void leave_out(std::vector<cv::Rect> areas_px);
 
   // Done before the next look, which comes at once. From any thread.
   void order(FaceOrder order);
@@ -86,6 +90,7 @@ class FaceWorker {
   std::atomic<bool> wanted_ = false;  // written under the mutex
   bool ending_ = false;
   std::vector<FaceOrder> orders_;
+  std::optional<std::vector<cv::Rect>> left_out_px_;  // that the grabber does not know yet
   FaceState state_;
   std::thread thread_;
 };

@@ -7,10 +7,12 @@
 
 #include "capture/make_frame_source.hpp"
 #include "config/locator.hpp"
+#include "config/places.hpp"
 #include "screen/frame_grabber.hpp"
 #include "screen/picture_grabber.hpp"
 #include "screen/recorded_screen_grabber.hpp"
-#include "screen/x11_grabber.hpp"
+#include "screen_portal/portal_grabber.hpp"
+#include "screen_x11/x11_grabber.hpp"
 
 namespace telehug {
 namespace {
@@ -58,8 +60,12 @@ Result<std::unique_ptr<ScreenGrabber>> make_screen_grabber(const ActiveConfig& c
     }
     case ScreenSourceKind::recording:
       return Grabber(std::make_unique<RecordedScreenGrabber>(source->place, clock));
-    case ScreenSourceKind::portal:
-      return Error{"not yet"};
+    case ScreenSourceKind::portal: {
+      PortalGrabberConfig screen;
+      screen.token_file = screen_consent_file();
+      screen.region = rect_of(*region);
+      return Grabber(std::make_unique<PortalGrabber>(screen, clock));
+    }
     case ScreenSourceKind::automatic:
     case ScreenSourceKind::x11:
       break;

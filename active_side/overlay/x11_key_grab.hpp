@@ -11,7 +11,7 @@
 
 #include "common/result.hpp"
 #include "overlay/key_combination.hpp"
-#include "screen/x11_connection.hpp"
+#include "screen_x11/x11_connection.hpp"
 
 namespace telehug {
 

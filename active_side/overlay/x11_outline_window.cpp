@@ -8,8 +8,8 @@
 #include <string_view>
 #include <utility>
 
-#include "screen/x11_extensions.hpp"
-#include "screen/x11_stacking.hpp"
+#include "screen_x11/x11_extensions.hpp"
+#include "screen_x11/x11_stacking.hpp"
 
 namespace telehug {
 namespace {

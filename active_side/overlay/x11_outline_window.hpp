@@ -9,8 +9,8 @@
 
 #include "common/clock.hpp"
 #include "common/result.hpp"
-#include "screen/x11_connection.hpp"
-#include "screen/x11_monitors.hpp"
+#include "screen_x11/x11_connection.hpp"
+#include "screen_x11/x11_monitors.hpp"
 
 namespace telehug {
 

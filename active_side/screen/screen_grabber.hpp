@@ -4,6 +4,7 @@
 #include <opencv2/core/mat.hpp>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "common/clock.hpp"
 #include "common/result.hpp"
@@ -47,11 +48,18 @@ class ScreenGrabber {
   // `lost`. `lost` if not open.
   virtual GrabOutcome grab(ScreenPicture& picture) = 0;
 
+  // Parts of the monitor where telehug itself draws, px: from the next grab on what changes there is no change.
+  // Grabbers whose pictures don't show that need not care.
+  virtual void leave_out(std::vector<cv::Rect> /*areas_px*/) {}
+
   // Does it show what happens now, so that somebody who never moves is a picture of somebody? Files don't.
   [[nodiscard]] virtual bool is_live() const = 0;
 
   // What status calls this grabber: "picture FILE".
   [[nodiscard]] virtual std::string name() const = 0;
+
+  // One sentence that the user should know although all works; empty: nothing.
+  [[nodiscard]] virtual std::string remark() const { return {}; }
 
   // One sentence about the newest `lost`, with what to do; empty if there was none.
   [[nodiscard]] virtual std::string last_error() const = 0;

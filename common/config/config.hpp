@@ -69,6 +69,11 @@ struct BodyMapConfig {
 struct SendingConfig {
   std::string at_start = "auto";  // auto, on, off
   bool only_in_front = true;
+  std::string hotkey;  // such as "Ctrl+Alt+H"; empty: none
+};
+
+struct OverlayConfig {
+  bool show = false;
 };
 
 struct ActiveConfig {
@@ -78,6 +83,7 @@ struct ActiveConfig {
   LocalTouchConfig local_touch;
   BodyMapConfig body_map;
   SendingConfig sending;
+  OverlayConfig overlay;
   PeerConfig peer;
   int heartbeat_timeout_ms = 250;  // [peer]
   ControlConfig control;

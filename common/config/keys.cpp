@@ -180,6 +180,19 @@ std::vector<Key> keys_of(ActiveConfig& c) {
        "",
        {},
        "true: touches never go out while another window covers the pinned one."},
+      {"sending",
+       "hotkey",
+       &c.sending.hotkey,
+       "",
+       {},
+       "X11: keys that turn the sending off and on, such as \"Ctrl+Alt+H\"; empty: none."},
+
+      {"overlay",
+       "show",
+       &c.overlay.show,
+       "",
+       {},
+       "true: the touched box is outlined on the screen (X11), in red, and in green once the other side has felt it."},
   };
   append(rows, peer_rows(c.peer));
   append(rows, {{"peer", "heartbeat_timeout_ms", &c.heartbeat_timeout_ms, "ms", heartbeat_timeout,

@@ -9,6 +9,3 @@ telehug_test(test_eval_face KIND unit SUBJECT face
 telehug_test(test_face KIND unit SUBJECT face
   SOURCES unit/face/inner_change_test.cpp unit/face/remote_face_follower_test.cpp
   DEPS active_face)
-telehug_test(test_screen_share KIND unit SUBJECT face
-  SOURCES unit/screen/frame_in_memory_test.cpp unit/screen/frame_slot_test.cpp unit/screen/restore_token_test.cpp
-  DEPS active_screen)

@@ -11,7 +11,7 @@
 #include "doubles/xvfb.hpp"
 #include "face/make_face_finder.hpp"
 #include "face_worker.hpp"
-#include "screen/x11_grabber.hpp"
+#include "screen_x11/x11_grabber.hpp"
 
 namespace telehug {
 namespace {

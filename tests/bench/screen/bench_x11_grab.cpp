@@ -21,7 +21,7 @@
 
 #include "doubles/x11_client.hpp"
 #include "doubles/xvfb.hpp"
-#include "screen/x11_grabber.hpp"
+#include "screen_x11/x11_grabber.hpp"
 
 namespace telehug {
 namespace {

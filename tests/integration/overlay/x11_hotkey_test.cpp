@@ -14,7 +14,7 @@
 #include "doubles/fake_clock.hpp"
 #include "doubles/x11_client.hpp"
 #include "doubles/xvfb.hpp"
-#include "screen/x11_connection.hpp"
+#include "screen_x11/x11_connection.hpp"
 
 namespace telehug {
 namespace {

@@ -16,7 +16,7 @@
 #include "doubles/x11_monitors_by_hand.hpp"
 #include "doubles/xvfb.hpp"
 #include "overlay/outline.hpp"
-#include "screen/x11_grabber.hpp"
+#include "screen_x11/x11_grabber.hpp"
 
 namespace telehug {
 namespace {

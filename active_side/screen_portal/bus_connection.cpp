@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "screen_portal/bus_connection.hpp"
+
+#include <fmt/format.h>
+
+#include <cstring>
+#include <utility>
+
+namespace telehug {
+
+Result<Bus> connect_to_bus(const std::string& address) {
+  sd_bus* made = nullptr;
+  int code = address.empty() ? sd_bus_open_user(&made) : sd_bus_new(&made);
+  Bus bus(made);
+  if (!address.empty()) {
+    if (code >= 0) code = sd_bus_set_address(made, address.c_str());
+    if (code >= 0) code = sd_bus_set_bus_client(made, 1);
+    if (code >= 0) code = sd_bus_start(made);
+  }
+  if (code >= 0) return Result<Bus>(std::move(bus));
+  return Error{
+      fmt::format("There is no session bus to ask the desktop for its screen ({}); run telehug in the user's "
+                  "graphical session.",
+                  std::strerror(-code))};
+}
+
+}  // namespace telehug

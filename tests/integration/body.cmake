@@ -1,8 +1,0 @@
-# SPDX-License-Identifier: Apache-2.0
-telehug_test(test_portal_grabber KIND integration SUBJECT face
-  SOURCES integration/screen/portal_consent_test.cpp integration/screen/portal_pictures_test.cpp
-    integration/screen/portal_trouble_test.cpp doubles/drawn_screen.cpp doubles/fake_portal.cpp
-  DEPS active_screen opencv::imgproc PkgConfig::pipewire PkgConfig::sdbus)
-# PipeWire's macros cast in C's way.
-set_source_files_properties(doubles/drawn_screen.cpp TARGET_DIRECTORY test_portal_grabber PROPERTIES
-  COMPILE_OPTIONS -Wno-old-style-cast)
