@@ -24,7 +24,7 @@ class Looker:
         self._environment = {"PATH": os.environ["PATH"], "HOME": home, "DISPLAY": display}
         self._looks = []
         self._news = threading.Condition()
-        self._ended = False
+        self._ended = ""  # why no more looks come
 
     def __enter__(self):
         self._process = subprocess.Popen(self._command, env=self._environment, stdin=subprocess.DEVNULL,
@@ -44,13 +44,18 @@ class Looker:
         self._process.stdout.close()
 
     def _read(self):
+        fault = ""
         for line in self._process.stdout:
-            look = _parse(line)
+            try:
+                look = _parse(line)
+            except (KeyError, TypeError, ValueError) as error:
+                fault = f"said what no look is ({error!r}): {line.strip()}"
+                break
             with self._news:
                 self._looks.append(look)
                 self._news.notify_all()
         with self._news:
-            self._ended = True
+            self._ended = fault or f"ended early with {self._process.wait()}"
             self._news.notify_all()
 
     def looks(self, from_ns, to_ns=None):
@@ -64,7 +69,7 @@ class Looker:
         with self._news:
             while not reached(self._looks):
                 if self._ended:
-                    raise RuntimeError(f"'{' '.join(self._command)}' ended early with {self._process.poll()}")
+                    raise RuntimeError(f"'{' '.join(self._command)}' {self._ended}")
                 left_s = give_up - time.monotonic()
                 if left_s <= 0:
                     return False
@@ -91,5 +96,6 @@ def _parse(line):
     if said["version"] != 0:
         box, side = said["grid"], said["box_px"]
         grid = Grid(middle_px=box["x"] + box["w"] / 2, chin_px=box["y"], side_px=side, bottom_px=box["y"] + box["h"])
-        assert said["columns"] == 5 and abs(box["w"] - 5 * side) < 2, f"this is no grid of five columns: {line}"
+        if said["columns"] != 5 or abs(box["w"] - 5 * side) >= 2:
+            raise ValueError("not a grid of five columns of squares")
     return Look(said["time_ns"], told_ns, said.get("seen_ns", 0), said["version"], grid, said["problem"])
