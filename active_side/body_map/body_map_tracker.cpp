@@ -54,10 +54,10 @@ const BodyMap& BodyMapTracker::update(Timestamp time, const std::optional<Mapped
   }
   const bool seen_now = face->seen == time;
   if (face->person != person_ || (seen_now && offset_fh(shown_, face->face) > config_.leap_fh)) {
-    leap(*face);
+    leap(time, *face);
   } else {
     if (seen_now) filter(*face, seconds_between(filtered_, time));
-    glide(seconds_between(updated_, time));
+    glide(time, seconds_between(updated_, time));
   }
   updated_ = time;
   if (seen_now) filtered_ = time;
@@ -65,7 +65,8 @@ const BodyMap& BodyMapTracker::update(Timestamp time, const std::optional<Mapped
   return map_;
 }
 
-void BodyMapTracker::leap(const MappedFace& face) {
+void BodyMapTracker::leap(Timestamp time, const MappedFace& face) {
+  leapt_ = time;
   person_ = face.person;
   middle_mm_.reset(middle_of(face.face));
   chin_mm_.reset(chin_of(face.face));
@@ -83,11 +84,12 @@ void BodyMapTracker::filter(const MappedFace& face, double seconds) {
   log_height_.update(std::log(face.face.height_mm), seconds);
 }
 
-void BodyMapTracker::glide(double seconds) {
+void BodyMapTracker::glide(Timestamp time, double seconds) {
   const ScreenRect aim =
       face_at(middle_mm_.value(), chin_mm_.value(), std::exp(log_height_.value()), width_per_height_);
   const double off_fh = offset_fh(shown_, aim);
-  gliding_ = off_fh > (gliding_ ? config_.arrived_fh : config_.dead_band_fh);
+  const bool settles = time - leapt_ < config_.settle;
+  gliding_ = off_fh > (gliding_ || settles ? config_.arrived_fh : config_.dead_band_fh);
   if (!gliding_ || !(seconds > 0)) return;
   const double share = 1 - std::exp(-seconds / std::chrono::duration<double>(config_.glide).count());
   shown_ = face_at(std::lerp(middle_of(shown_), middle_of(aim), share), std::lerp(chin_of(shown_), chin_of(aim), share),

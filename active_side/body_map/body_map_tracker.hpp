@@ -15,6 +15,7 @@ struct BodyMapTrackerConfig {
   double dead_band_fh = 0.10;  // the grid stands until the filtered face is off by more: a fifth of a box ...
   double arrived_fh = 0.025;   // ... and then glides there until it is off by less
   Duration glide = 200ms;      // time constant
+  Duration settle = 1s;        // so long after a leap there is no dead band: the first find is only one find
   double leap_fh = 0.5;        // who is off by more has not moved like this: the picture has; the grid leaps after it
 };
 
@@ -38,9 +39,9 @@ class BodyMapTracker {
   [[nodiscard]] const BodyMap& map() const { return map_; }
 
  private:
-  void leap(const MappedFace& face);
+  void leap(Timestamp time, const MappedFace& face);
   void filter(const MappedFace& face, double seconds);
-  void glide(double seconds);
+  void glide(Timestamp time, double seconds);
   void lay(const ScreenRect& view, Timestamp seen);
 
   BodyMapTrackerConfig config_;
@@ -51,7 +52,7 @@ class BodyMapTracker {
   double width_per_height_ = 1;
   ScreenRect shown_;  // the face that the grid hangs from
   bool gliding_ = false;
-  Timestamp updated_, filtered_;
+  Timestamp leapt_, updated_, filtered_;
   std::uint32_t last_version_ = 0;
 };
 

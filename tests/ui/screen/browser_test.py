@@ -27,7 +27,7 @@ RUN_S = 280  # everything is ended then
 
 POINTS = 10  # a placement
 PLACEMENTS = 10  # in each of the two arrangements
-SITTING_S = 15  # a person
+SITTING_S = 9  # a person
 MOVES = [("jump", 0.8, 1.0), ("slide", -0.8, 1.2), ("jump", -0.8, 1.2), ("slide", 0.8, 1 / 1.2),
          ("jump", 0.8, 1 / 1.2), ("slide", -0.8, 1.0), ("jump", -0.8, 1.2), ("slide", 0.8, 1 / 1.2)]
 SLIDE_S = 0.7
@@ -55,7 +55,7 @@ def on_the_whole_monitor(given, xvfb, persons, rng, results):
             results.placements.append(measure_placement(rng, chat, looker, persons[i % len(persons)], POINTS))
         if given.screenshot:
             xvfb.save_png(given.screenshot)
-        for person in persons[2:4]:
+        for person in persons[:7]:
             results.sittings.append(measure_sitting(chat, looker, person, 250, SITTING_S))
         shown = results.sittings[-1].shown
         for kind, sideways_fh, scale in MOVES:

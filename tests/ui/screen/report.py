@@ -44,14 +44,13 @@ def tell_boxes(placements):
 
 def tell_sittings(sittings):
     print("\nSitting still and talking")
-    kept = []
     for sitting in sittings:
-        still = 1 - sitting.moved / sitting.looks if sitting.looks else 0
         off = "-" if sitting.offset is None else f"{sitting.offset:.3f}"
-        kept.append(_verdict(f"{sitting.shown.person.name}: still in {still:.1%} of {sitting.looks} looks, no grid in "
-                             f"{sitting.lost}, off by {off} face heights", still >= LEAST_STILL,
-                             f"at least {LEAST_STILL:.0%}"))
-    return all(kept)
+        print(f"  {sitting.shown.person.name:<22} moved in {sitting.moved} of {sitting.looks} looks, no grid in "
+              f"{sitting.lost}, off by {off} face heights")
+    looks = sum(sitting.looks for sitting in sittings)
+    still = 1 - sum(sitting.moved for sitting in sittings) / looks if looks else 0
+    return _verdict(f"still in {still:.1%} of {looks} looks", still >= LEAST_STILL, f"at least {LEAST_STILL:.0%}")
 
 
 def tell_moves(moves):
