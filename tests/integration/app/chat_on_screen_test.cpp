@@ -10,6 +10,7 @@
 #include <thread>
 
 #include "doubles/x11_client.hpp"
+#include "doubles/x11_typist.hpp"
 #include "doubles/xvfb.hpp"
 #include "integration/app/running_pair.hpp"
 #include "pictures/picture_file.hpp"
@@ -160,6 +161,42 @@ TEST_F(ChatOnScreen, IsToldWhenThereIsNoDisplay) {
   start_all();
   EXPECT_TRUE(eventually([&] { return pair.complains(Side::active, "DISPLAY"); })) << pair.logs();
   EXPECT_EQ(pair.counter(Side::active, "events_published"), 0U);
+}
+
+TEST_F(ChatOnScreen, OutlinesTheTouchedBoxOnceItIsFeltWithoutLookingAtThat) {
+  X11Client onlooker(xvfb.display());
+  const Chat chat(xvfb.display());
+  pin_the_chat();
+  pair.active_settings.emplace_back("overlay.show=true");
+  start_all();
+  ASSERT_TRUE(becomes_felt()) << pair.logs();
+  constexpr int green = 0x43A047;
+  const auto outlined_px = [&] { return cv::countNonZero(onlooker.screenshot(screen_px) == green); };
+  // The chat is as large as the screen: boxes are over a hundred px wide, the felt line is six.
+  EXPECT_TRUE(eventually([&] { return outlined_px() > 1000; })) << pair.logs();
+  EXPECT_TRUE(pair.felt()) << "the outline does not count as a window in front of the chat";
+
+  EXPECT_EQ(send("off").code, 0);
+  EXPECT_TRUE(eventually([&] { return outlined_px() == 0; })) << pair.logs();
+}
+
+TEST_F(ChatOnScreen, IsSwitchedOffAndOnByTheHotkey) {
+  X11Typist typist(xvfb.display());
+  const Chat chat(xvfb.display());
+  pin_the_chat();
+  pair.active_settings.emplace_back("sending.hotkey=Ctrl+Alt+h");
+  start_all();
+  ASSERT_TRUE(becomes_felt()) << pair.logs();
+  typist.type({ctrl, alt, 'h'});
+  EXPECT_TRUE(is_withheld_because("switched off"));
+  typist.type({ctrl, alt, 'h'});
+  EXPECT_TRUE(becomes_felt()) << pair.logs();
+}
+
+TEST_F(ChatOnScreen, IsToldThatTheHotkeyMeansNothing) {
+  pair.active_settings.emplace_back("sending.hotkey=Hyper+H");
+  start_all();
+  EXPECT_TRUE(eventually([&] { return pair.complains(Side::active, "Hyper"); })) << pair.logs();
 }
 
 TEST_F(ChatOnScreen, FollowsTheFaceThatAPersonChooses) {

@@ -3,8 +3,6 @@
 
 #include <gmock/gmock.h>
 #include <unistd.h>
-#include <xcb/xcb_keysyms.h>
-#include <xcb/xtest.h>
 
 #include <chrono>
 #include <string>
@@ -12,7 +10,7 @@
 #include <vector>
 
 #include "doubles/fake_clock.hpp"
-#include "doubles/x11_client.hpp"
+#include "doubles/x11_typist.hpp"
 #include "doubles/xvfb.hpp"
 #include "screen_x11/x11_connection.hpp"
 
@@ -21,52 +19,6 @@ namespace {
 
 using testing::AllOf;
 using testing::HasSubstr;
-
-constexpr xcb_keysym_t ctrl = 0xFFE3;
-constexpr xcb_keysym_t alt = 0xFFE9;
-constexpr xcb_keysym_t caps_lock = 0xFFE5;
-constexpr xcb_keysym_t num_lock = 0xFF7F;
-
-// Somebody at the keyboard.
-class Typist {
- public:
-  explicit Typist(const std::string& display) : client_(display) {}
-
-  [[nodiscard]] xcb_keycode_t code(xcb_keysym_t sign) {
-    xcb_key_symbols_t* symbols = xcb_key_symbols_alloc(client_.get());
-    const XcbOwned<xcb_keycode_t> codes(xcb_key_symbols_get_keycode(symbols, sign));
-    const xcb_keycode_t first = codes ? *codes : 0;
-    xcb_key_symbols_free(symbols);
-    EXPECT_NE(first, 0) << "no key for " << sign;
-    return first;
-  }
-  void press(xcb_keycode_t code) { fake(XCB_KEY_PRESS, code); }
-  void release(xcb_keycode_t code) { fake(XCB_KEY_RELEASE, code); }
-
-  // Presses keys one after the other and releases them in the opposite order.
-  void type(const std::vector<xcb_keysym_t>& signs) {
-    for (const xcb_keysym_t sign : signs)
-      press(code(sign));
-    for (auto sign = signs.rbegin(); sign != signs.rend(); ++sign)
-      release(code(*sign));
-  }
-
-  void put(xcb_keysym_t sign, xcb_keycode_t code) {
-    const std::vector<xcb_keysym_t> signs{sign, sign};
-    xcb_change_keyboard_mapping(client_.get(), 1, code, 2, signs.data());
-    client_.sync();
-  }
-  void sync() { client_.sync(); }
-
- private:
-  void fake(std::uint8_t what, xcb_keycode_t code) {
-    // After 2 ms: nobody releases a key and presses it again within the same one, only repeating keys do that.
-    xcb_test_fake_input(client_.get(), what, code, 2, XCB_NONE, 0, 0, 0);
-    client_.sync();
-  }
-
-  X11Client client_;
-};
 
 class X11HotkeyTest : public testing::Test {
  protected:
@@ -92,7 +44,7 @@ class X11HotkeyTest : public testing::Test {
   }
 
   Xvfb server;
-  Typist typist{server.display()};
+  X11Typist typist{server.display()};
   FakeClock clock;
   X11Hotkey hotkey{{.display = server.display(), .keys = "Ctrl+Alt+H"}, clock};
 };
@@ -221,7 +173,7 @@ TEST_F(X11HotkeyTest, ComesBackWithItsServer) {
   EXPECT_FALSE(other.pressed());
   EXPECT_THAT(other.last_error(), HasSubstr("can't be reached"));
   mortal.start();
-  Typist there(mortal.display());
+  X11Typist there(mortal.display());
   clock.advance(1s);
   EXPECT_FALSE(other.pressed());
   EXPECT_EQ(other.last_error(), "");
