@@ -5,6 +5,7 @@
 
 #include "active_daemon.hpp"
 #include "body_map/vitruvian_grid.hpp"
+#include "body_map_json.hpp"
 #include "common/names.hpp"
 #include "daemon/status_parts.hpp"
 
@@ -219,7 +220,7 @@ Json ActiveDaemon::status() const {
                  {"counters", counters},
                  {"latency_ms", metrics_.latencies_json()}};
   if (!state.camera_setup.empty()) answer["camera"]["setup"] = state.camera_setup;
-  if (face.map.version != 0) answer["face"]["rows"] = face.map.shape.rows;
+  if (face.map.version != 0 && face.scale) answer["face"]["places_px"] = body_map_json(face.map, *face.scale);
   for (const LocalTouchState& output : local_touch_.states())
     answer["local_touch"][output.name] = output.open ? "on" : output.problem.empty() ? "waits for the camera" : "fails";
   if (state.last_touch) answer["last_touch"] = touch_json(*state.last_touch);

@@ -8,6 +8,7 @@
 #include <thread>
 
 #include "body_map/body_map_step.hpp"
+#include "body_map_json.hpp"
 #include "calibration/calibration_file.hpp"
 #include "commands/config_options.hpp"
 #include "config/places.hpp"
@@ -33,10 +34,6 @@ BodyMapStepConfig step_config(const ActiveConfig& config) {
   return step;
 }
 
-nlohmann::json rect_json(const cv::Rect2d& rect) {
-  return {{"x", rect.x}, {"y", rect.y}, {"w", rect.width}, {"h", rect.height}};
-}
-
 nlohmann::json look_json(const BodyMapStep& step, Timestamp looked, const std::string& problem) {
   const BodyMap& map = step.map();
   nlohmann::json look = {{"time_ns", to_ns(looked)},
@@ -44,14 +41,9 @@ nlohmann::json look_json(const BodyMapStep& step, Timestamp looked, const std::s
                          {"monitor", {{"width_px", step.monitor().width_px}, {"height_px", step.monitor().height_px}}},
                          {"problem", problem}};
   if (const auto in_front = step.in_front()) look["in_front"] = *in_front;
-  const auto scale = step.scale();
-  if (map.version != 0 && scale) {
+  if (const auto scale = step.scale(); map.version != 0 && scale) {
     look["seen_ns"] = to_ns(map.seen);
-    look["face"] = rect_json(scale->to_px(map.face));
-    look["grid"] = rect_json(scale->to_px(map.grid));
-    look["columns"] = map.shape.columns;
-    look["rows"] = map.shape.rows;
-    look["box_px"] = map.box_side_mm / scale->mm_per_px_y;
+    look.update(body_map_json(map, *scale));
   }
   return look;
 }

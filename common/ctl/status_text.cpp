@@ -85,13 +85,13 @@ std::string peer_text(const Json& peer) {
   return line("peer", joined(text, ", ", rest_of(peer, {"connected", "stopped", "reason", "round_trip_ms"})));
 }
 
-// Camera, screen and others that are open, closed, or neither; a touch begins with what it is.
+// Camera, screen and others that are open, closed, or neither; a touch begins with what it is. Places are for programs.
 std::string thing_text(std::string_view label, const Json& thing) {
   if (!thing.is_object()) return line(label, text_of(thing));
   std::string text = joined(text_at(thing, "name"), ", ", text_at(thing, "gesture"));
   if (part(thing, "open") != nullptr) text = joined(text, ", ", flag_at(thing, "open") ? "open" : "closed");
   text = joined(text, ": ", text_at(thing, "why"));
-  return line(label, joined(text, ", ", rest_of(thing, {"name", "gesture", "open", "why"})));
+  return line(label, joined(text, ", ", rest_of(thing, {"name", "gesture", "open", "why", "places_px"})));
 }
 
 std::string counters_text(const Json& counters) {

@@ -18,14 +18,17 @@
 namespace telehug {
 namespace {
 
-const cv::Rect screen_px(0, 0, 1280, 1024);
+const cv::Rect screen_px(0, 0, 1920, 1080);
 
+// As high as the screen, between black bars.
 cv::Mat chat_picture() {
   const auto picture = read_picture(TELEHUG_FIXTURES "/chat/01_full.jpg");
   if (!picture) throw std::runtime_error(picture.error().message);
+  const int width = picture->cols * screen_px.height / picture->rows;
+  cv::Mat screen(screen_px.size(), CV_8UC3, cv::Scalar::all(0));
+  cv::resize(*picture, screen({(screen_px.width - width) / 2, 0, width, screen_px.height}), {width, screen_px.height});
   cv::Mat bgrx;
-  cv::cvtColor(*picture, bgrx, cv::COLOR_BGR2BGRA);
-  cv::resize(bgrx, bgrx, screen_px.size());
+  cv::cvtColor(screen, bgrx, cv::COLOR_BGR2BGRA);
   return bgrx;
 }
 
@@ -61,6 +64,18 @@ class Chat {
   std::thread thread_;
 };
 
+// For the README: TELEHUG_SCREENSHOT=docs/overlay.png test_app_chat_on_screen
+void save_screenshot(X11Client& onlooker) {
+  const char* const file = std::getenv("TELEHUG_SCREENSHOT");
+  if (file == nullptr) return;
+  const cv::Mat1i colours = onlooker.screenshot(screen_px);
+  cv::Mat bgr;
+  cv::cvtColor(cv::Mat(colours.size(), CV_8UC4, colours.data), bgr, cv::COLOR_BGRA2BGR);
+  cv::resize(bgr, bgr, screen_px.size() / 2, 0, 0, cv::INTER_AREA);
+  const Status written = write_png(file, bgr);
+  EXPECT_TRUE(written) << written.error().message;
+}
+
 class ChatOnScreen : public testing::Test {
  protected:
   ChatOnScreen() {
@@ -89,7 +104,7 @@ class ChatOnScreen : public testing::Test {
     return pair.run({TELEHUG_BIN "/telehug", "send", mode, "--socket", pair.socket(Side::active).string()});
   }
 
-  Xvfb xvfb{"1280x1024x24"};
+  Xvfb xvfb{"1920x1080x24"};
   RunningPair pair;
 };
 
@@ -175,6 +190,7 @@ TEST_F(ChatOnScreen, OutlinesTheTouchedBoxOnceItIsFeltWithoutLookingAtThat) {
   // The chat is as large as the screen: boxes are over a hundred px wide, the felt line is six.
   EXPECT_TRUE(eventually([&] { return outlined_px() > 1000; })) << pair.logs();
   EXPECT_TRUE(pair.felt()) << "the outline does not count as a window in front of the chat";
+  save_screenshot(onlooker);
 
   EXPECT_EQ(send("off").code, 0);
   EXPECT_TRUE(eventually([&] { return outlined_px() == 0; })) << pair.logs();
