@@ -27,3 +27,5 @@ telehug_test(test_app_record_screen KIND integration SUBJECT face
   SOURCES integration/app/record_screen_test.cpp DEPS running_pair active_screen)
 telehug_test(test_app_chat_on_screen KIND integration SUBJECT face
   SOURCES integration/app/chat_on_screen_test.cpp DEPS running_pair telehug_pictures opencv::imgproc PkgConfig::xcb PkgConfig::xtest)
+telehug_test(test_app_look KIND integration SUBJECT face
+  SOURCES integration/app/look_test.cpp DEPS running_pair)
