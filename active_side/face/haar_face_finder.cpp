@@ -10,6 +10,8 @@
 #include <opencv2/objdetect.hpp>
 #include <system_error>
 
+#include "face/checked_search.hpp"
+
 namespace telehug {
 namespace fs = std::filesystem;
 namespace {
@@ -42,18 +44,7 @@ class HaarFaceFinder final : public FaceFinder {
   [[nodiscard]] std::string name() const override { return "Haar"; }
 
   Result<FoundFaces> find(const cv::Mat& bgr) override {
-    if (bgr.empty()) {
-      return FoundFaces{};
-    }
-    if (bgr.type() != CV_8UC3 && bgr.type() != CV_8UC4) {
-      return Error{"The picture is not in 8-bit BGR or BGRX, so no face can be found in it."};
-    }
-    try {
-      return find_in(bgr);
-    } catch (const cv::Exception& exception) {
-      return Error{
-          fmt::format("The face cascade failed on a picture of {}x{} px: {}", bgr.cols, bgr.rows, exception.what())};
-    }
+    return checked_search(bgr, name(), [this](const cv::Mat& picture) { return find_in(picture); });
   }
 
  private:

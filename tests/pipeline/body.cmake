@@ -2,6 +2,7 @@
 telehug_test(test_face_pipeline KIND pipeline SUBJECT face
   SOURCES pipeline/body_map/body_map_step_test.cpp pipeline/body_map/show_boxes_test.cpp
     pipeline/face/blaze_face_finder_test.cpp pipeline/face/haar_face_finder_test.cpp
+    pipeline/face/make_face_finder_test.cpp
     pipeline/eval_face/eval_face_test.cpp
   DEPS active_eval_face active_body_map telehug_pictures)
 telehug_test(test_screen KIND pipeline SUBJECT face

@@ -10,7 +10,6 @@
 #include "doubles/largest_face.hpp"
 #include "doubles/temporary_folder.hpp"
 #include "eval_face/eval_face.hpp"
-#include "face/make_face_finder.hpp"
 #include "pictures/picture_file.hpp"
 
 namespace telehug {
@@ -99,24 +98,6 @@ TEST(BlazeFaceFinder, FindsAFaceOfManySizesAtItsPlace) {
   }
 }
 
-TEST(BlazeFaceFinder, FindsNothingInAnEmptyOrUniformPicture) {
-  const auto finder = blaze();
-  for (const cv::Mat& picture :
-       {cv::Mat(), cv::Mat(0, 0, CV_8UC3), cv::Mat(1, 1, CV_8UC3, cv::Scalar(9, 9, 9)),
-        cv::Mat(1, 4000, CV_8UC3, cv::Scalar(9, 9, 9)), cv::Mat(4000, 1, CV_8UC3, cv::Scalar(9, 9, 9)),
-        cv::Mat(480, 640, CV_8UC3, cv::Scalar(90, 120, 90))}) {
-    const auto faces = finder->find(picture);
-    ASSERT_TRUE(faces) << faces.error().message;
-    EXPECT_TRUE(faces->empty());
-  }
-}
-
-TEST(BlazeFaceFinder, RefusesAPictureThatIsNotBgr) {
-  const auto faces = blaze()->find(cv::Mat(480, 640, CV_8UC1, cv::Scalar(90)));
-  ASSERT_FALSE(faces);
-  EXPECT_THAT(faces.error().message, HasSubstr("BGR"));
-}
-
 TEST(BlazeFaceFinder, NamesThePathsTriedWhereTheModelIsMissing) {
   const TemporaryFolder folder;
   const auto finder = make_blaze_face_finder({folder / "one.onnx", folder / "two.onnx"});
@@ -139,22 +120,6 @@ TEST(BlazeFaceFinder, RefusesAFileThatDiffersFromTheModelInOneByte) {
     ASSERT_FALSE(finder);
     EXPECT_THAT(finder.error().message, HasSubstr(file.string()));
   }
-}
-
-TEST(MakeFaceFinder, TakesHaarAndSaysSoWhereTheModelCannotBeUsed) {
-  const TemporaryFolder folder;
-  const auto chosen = make_face_finder("blaze", {folder.write("wrong.onnx", "not a model")});
-  ASSERT_TRUE(chosen) << chosen.error().message;
-  EXPECT_EQ(chosen->finder->name(), "Haar");
-  EXPECT_THAT(chosen->note, HasSubstr("wrong.onnx"));
-  EXPECT_THAT(chosen->note, HasSubstr("Haar"));
-}
-
-TEST(MakeFaceFinder, MakesTheOneThatIsAskedFor) {
-  EXPECT_EQ(make_face_finder("blaze")->finder->name(), "BlazeFace");
-  EXPECT_EQ(make_face_finder("blaze")->note, "");
-  EXPECT_EQ(make_face_finder("haar")->finder->name(), "Haar");
-  EXPECT_EQ(make_face_finder("haar")->note, "");
 }
 
 // All labelled pictures, where they stand beside the project: 22 with a remote person, 5 with nobody.
