@@ -14,6 +14,10 @@ constexpr Duration idle_period = 500ms;
 
 }  // namespace
 
+Duration look_interval(Duration period, Duration without_face) {
+  return without_face > idle_after ? std::max(period, idle_period) : period;
+}
+
 FaceWorker::FaceWorker(std::unique_ptr<ScreenGrabber> grabber, std::unique_ptr<FaceFinder> finder,
                        const BodyMapStepConfig& config, double rate_hz, const Clock& clock, MetricsRegistry& metrics)
     : grabber_(std::move(grabber)),
@@ -95,7 +99,7 @@ void FaceWorker::work() {
     if (wanted && wanted_) has_looked_ = true;
     const auto next = [this, wanted] { return ending_ || wanted_ != wanted || !orders_.empty(); };
     if (wanted) {
-      changed_.wait_until(lock, started + pace(started), next);
+      changed_.wait_until(lock, started + look_interval(period_, started - last_face_), next);
     } else {
       changed_.wait(lock, next);
     }
@@ -116,10 +120,6 @@ void FaceWorker::obey(const std::vector<FaceOrder>& orders) {
         break;
     }
   }
-}
-
-Duration FaceWorker::pace(Timestamp now) const {
-  return now - last_face_ > idle_after ? std::max(period_, idle_period) : period_;
 }
 
 void FaceWorker::look() {
@@ -153,9 +153,9 @@ void FaceWorker::look() {
 }
 
 void FaceWorker::rest() {
-  grabber_->close();
   newest_.put(BodyMap{});
   front_ = Front::unknown;
+  grabber_->close();
   last_face_ = clock_.now();
   const std::lock_guard lock(mutex_);
   state_ = {};

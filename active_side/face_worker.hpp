@@ -30,6 +30,9 @@ struct FaceState {
   bool pinned = false;
 };
 
+// How long from one look to the next: `period`; but half a second at least where no face was seen for 10 s and more.
+[[nodiscard]] Duration look_interval(Duration period, Duration without_face);
+
 // What a person says about whom to follow.
 enum class FaceOrder { next, pin, unpin };
 
@@ -71,7 +74,6 @@ class FaceWorker {
   void obey(const std::vector<FaceOrder>& orders);
   void look();
   void rest();
-  [[nodiscard]] Duration pace(Timestamp now) const;
 
   std::unique_ptr<ScreenGrabber> grabber_;
   std::unique_ptr<FaceFinder> finder_;

@@ -87,10 +87,11 @@ Result<ScreenScale> BodyMapStep::scale() const {
   return make_screen_scale(*config_.screen, view_monitor_);
 }
 
+// A hand in front of a face is waited for, but nobody is touched on a screen that is not seen.
 const BodyMap& BodyMapStep::lose(std::string why) {
-  lay(follower_.blind(picture_.time));
+  follower_.blind(picture_.time);
   problem_ = std::move(why);
-  return tracker_.map();
+  return tracker_.update(picture_.time, std::nullopt, {});
 }
 
 }  // namespace telehug
