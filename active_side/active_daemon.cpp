@@ -121,7 +121,7 @@ bool ActiveDaemon::camera_wanted(Timestamp now) {
   if (rig_) rig_->face->want(touches_go_out && !recording_over_);
   // Before it is known where the remote person is, fingers mean nothing to the other side.
   const bool screen_known = touches_go_out && rig_->face->has_looked();
-  sending_ = screen_known && sending_switch_.judge(rig_->face->view()) == SendingVerdict::sends;
+  judge_sending(screen_known);
   return (screen_known || used_here) && !recording_over_;
 }
 
@@ -134,6 +134,7 @@ void ActiveDaemon::take_frame() {
   camera_->need_rows(rig_->pipeline.rows_needed());
   const ReadOutcome outcome = camera_->read(frame_, longest_wait_for_a_frame);
   rig_->face->update(map_);
+  judge_sending((sending_ || withholding_) && !stop_.stopped());  // the read may have taken its time
   if (outcome == ReadOutcome::lost && !camera_lost_) camera_losses_.add();
   camera_lost_ = outcome == ReadOutcome::lost;
   switch (outcome) {
@@ -141,7 +142,7 @@ void ActiveDaemon::take_frame() {
       camera_latency_.record(clock_.now() - frame_.time);
       if (before != 0 && frame_.sequence > before + 1) frames_missed_.add(frame_.sequence - before - 1);
       publish(rig_->pipeline.process(frame_, map_, sending_), frame_.sequence);
-      count_withheld();
+      hold_back();
       return;
     case ReadOutcome::broken:
       frames_broken_.add();
@@ -169,8 +170,17 @@ void ActiveDaemon::rest() {
   std::this_thread::sleep_for(resting_round);
 }
 
-void ActiveDaemon::count_withheld() {
-  if (sending_) return;
+void ActiveDaemon::judge_sending(bool screen_known) {
+  const bool sends = screen_known && sending_switch_.judge(rig_->face->view()) == SendingVerdict::sends;
+  sending_ = sends;
+  withholding_ = screen_known && !sends;
+}
+
+// What touches the screen while touches don't go out touches nobody until it is lifted: a finger that closes the window
+// in front of the chat, a cloth.
+void ActiveDaemon::hold_back() {
+  if (!withholding_) return;
+  rig_->pipeline.hold_back_contacts();
   for (const ContactState& contact : rig_->pipeline.contacts())
     if (contact.phase == Phase::down) ++own_state_.withheld;
 }
@@ -237,8 +247,8 @@ void ActiveDaemon::load_rig_if_changed() {
 
   auto rig = make_rig(config_, session_, clock_, metrics_);
   const std::string problem = rig ? "" : rig.error().message;
+  const std::string note = rig ? (*rig)->note : "";
   if (rig) {
-    const std::string& note = (*rig)->note;
     say_rig_.say(note.empty() ? spdlog::level::info : spdlog::level::warn,
                  fmt::format("calibration: {}{}{}", calibration_path_.string(), note.empty() ? "" : "; ", note));
     new_rig_.put(*std::move(rig));
@@ -247,6 +257,7 @@ void ActiveDaemon::load_rig_if_changed() {
   }
   const std::lock_guard lock(words_mutex_);
   rig_problem_ = problem;
+  rig_note_ = note;
 }
 
 void ActiveDaemon::tell_peer() {

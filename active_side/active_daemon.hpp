@@ -84,7 +84,8 @@ class ActiveDaemon {
   [[nodiscard]] bool camera_wanted(Timestamp now);
   void take_frame();
   void rest();
-  void count_withheld();
+  void judge_sending(bool screen_known);
+  void hold_back();
   void publish(const TouchEvent* event, std::uint64_t frame_sequence);
   void tell_state(Timestamp now);
 
@@ -122,6 +123,7 @@ class ActiveDaemon {
   bool camera_lost_ = false;
   bool recording_over_ = false;
   bool sending_ = false;
+  bool withholding_ = false;  // touches would go out but for the sending switch
   Timestamp told_state_;
   TouchThreadState own_state_;
   Counter& events_published_;
@@ -151,6 +153,7 @@ class ActiveDaemon {
   Timestamp calibration_looked_at_;
   mutable std::mutex words_mutex_;  // guards the sentences below, which the control thread reads
   std::string rig_problem_;
+  std::string rig_note_;
   std::optional<SideStatus> peer_status_;
   bool told_recording_over_ = false;
   TouchedBox touched_box_;

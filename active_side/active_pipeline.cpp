@@ -94,12 +94,31 @@ Timestamp ActivePipeline::rising(Timestamp time) {
   return newest_ = std::max(time, newest_ + Duration{1});
 }
 
+void ActivePipeline::hold_back_contacts() {
+  held_back_.clear();
+  for (const ContactState& contact : *contacts_)
+    held_back_.push_back(contact.id);
+}
+
+void ActivePipeline::leave_out_held_back(BoxedContacts& boxed) {
+  const auto ended = [this](std::uint32_t id) {
+    return std::none_of(contacts_->begin(), contacts_->end(),
+                        [id](const ContactState& contact) { return contact.id == id; });
+  };
+  held_back_.erase(std::remove_if(held_back_.begin(), held_back_.end(), ended), held_back_.end());
+  const auto held_back = [this](const BoxedContact& contact) {
+    return std::find(held_back_.begin(), held_back_.end(), contact.id) != held_back_.end();
+  };
+  boxed.erase(std::remove_if(boxed.begin(), boxed.end(), held_back), boxed.end());
+}
+
 const TouchEvent* ActivePipeline::report(const ContactStates& contacts, const BodyMap& map, bool sending,
                                          Timestamp frame_time) {
   const Timestamp tracked = clock_.now();
   const auto body = map.version != 0 ? std::optional(map.grid) : std::nullopt;
   contacts_ = &gestures_.update(contacts, body);
-  const BoxedContacts boxed = sending ? boxes_under(*contacts_, map, max_map_age_, tracked, nobody_) : BoxedContacts{};
+  BoxedContacts boxed = sending ? boxes_under(*contacts_, map, max_map_age_, tracked, nobody_) : BoxedContacts{};
+  leave_out_held_back(boxed);
   if (!sending) builder_.withhold_downs();
   const TouchEvent* event = builder_.build(boxed, map.shape, map.version, frame_time, clock_.now());
 

@@ -41,6 +41,9 @@ class ActivePipeline {
   // There is no picture (camera lost, nobody wants it): contacts end.
   const TouchEvent* process_nothing(const BodyMap& map, bool sending);
 
+  // The contacts of the last frame are sent to nobody until they end, whatever `sending` says then.
+  void hold_back_contacts();
+
   // What is needed of the next frame: the rows in which fingers are looked for, now and then all.
   [[nodiscard]] RowRange rows_needed() const noexcept {
     return frame_check_.wants_whole_pictures() ? RowRange{} : rows_needed_;
@@ -59,6 +62,7 @@ class ActivePipeline {
   void count(const FrameFindings& findings);
   // From here on time rises: a camera that comes back stamps its first frame a little before it was last missed.
   Timestamp rising(Timestamp time);
+  void leave_out_held_back(BoxedContacts& boxed);
   const TouchEvent* report(const ContactStates& contacts, const BodyMap& map, bool sending, Timestamp frame_time);
 
   ImageSize image_;
@@ -77,6 +81,7 @@ class ActivePipeline {
   Timestamp newest_{};
   ContactStates none_;
   const ContactStates* contacts_ = &none_;
+  boost::container::static_vector<std::uint32_t, max_contacts> held_back_;  // ids
   NobodyTouched nobody_;
   FrameVerdict verdict_ = FrameVerdict::good;
   bool light_settles_ = false;

@@ -69,6 +69,11 @@ Json picture_problem(FrameVerdict verdict) {
   return {};
 }
 
+// A face that is held for a moment is no problem yet.
+bool no_face(const FaceState& face) {
+  return face.map.version == 0 && !face.problem.empty();
+}
+
 }  // namespace
 
 void ActiveDaemon::answer_commands() {
@@ -95,20 +100,24 @@ Json ActiveDaemon::order_face(const Json& request) {
   const FaceState face = worker->state();
   if (!face.open) return {{"error", "the screen is looked at only while a peer is connected and touches may go out"}};
   const bool seen = face.map.version != 0;
-  if (order == FaceOrder::next && face.choices < (seen ? 2 : 1)) return {{"error", "no other face is seen"}};
+  if (order == FaceOrder::next && face.others == 0) return {{"error", "no other face is seen"}};
   if (order == FaceOrder::pin && !seen) return {{"error", "no face is followed that could be pinned"}};
   worker->order(*order);
   return {{"face", name}};
 }
 
 Json ActiveDaemon::sending_json(const TouchThreadState& state) const {
-  const SendingVerdict verdict = sending_switch_.judge(state.face ? state.face->view() : ScreenView{});
+  if (!state.face) return {{"name", name_of(sending_switch_.mode())}, {"on", false}, {"why", "not calibrated"}};
+  const SendingVerdict verdict = sending_switch_.judge(state.face->view());
   Json sending = {{"name", name_of(sending_switch_.mode())}, {"on", verdict == SendingVerdict::sends}};
   switch (verdict) {
     case SendingVerdict::sends:
       break;
     case SendingVerdict::switched_off:
       sending["why"] = "switched off";
+      break;
+    case SendingVerdict::not_seen:
+      sending["why"] = "the pinned window is not seen";
       break;
     case SendingVerdict::covered:
       sending["why"] = "another window covers the pinned one";
@@ -132,6 +141,7 @@ Json ActiveDaemon::problems(const TouchThreadState& state, const FaceState& face
     const std::lock_guard lock(words_mutex_);
     if (!rig_problem_.empty())
       list.push_back(problem_json(rig_problem_, "run `telehug-active calibrate`, or correct the file"));
+    if (!rig_note_.empty()) list.push_back(problem_json(rig_note_, "telehug works, but not as well as it could"));
     if (!desktop_problem_.empty())
       list.push_back(problem_json(desktop_problem_, "or turn off [overlay] show and [sending] hotkey"));
   }
@@ -161,11 +171,11 @@ Json ActiveDaemon::problems(const TouchThreadState& state, const FaceState& face
     list.push_back(problem_json(output.problem, "or turn it off in [local_touch]; it is tried again by itself"));
   }
   if (state.recording_over) list.push_back(problem_json("the recording is over", "start again to replay it"));
-  if (!face.problem.empty()) {
+  if (no_face(face)) {
     list.push_back(problem_json(face.problem, "touches are not sent until a face is found; check [body_map]"));
   } else if (face.open && sending_switch_.judge(state.face->view()) == SendingVerdict::never_pinned) {
     list.push_back(problem_json("touches don't go out: it is not known whether the video chat is in front",
-                                "run `telehug send on`, or set [body_map] window"));
+                                "run `telehug send on`; on X11 [body_map] window pins the window of the chat"));
   }
   return list;
 }
@@ -179,7 +189,7 @@ Json ActiveDaemon::status() const {
   const FaceState face = state.face ? state.face->state() : FaceState{};
   const bool stopped = stop_.stopped() || peer_.stopped_by_peer();
   const bool fault = state.camera_lost || state.camera_drift == DriftState::moved ||
-                     !picture_problem(state.picture).is_null() || !state.face || !face.problem.empty();
+                     !picture_problem(state.picture).is_null() || !state.face || no_face(face);
 
   Json counters = metrics_.counters_json();
   counters["touches_without_face"] = state.nobody.no_face;
@@ -213,7 +223,7 @@ Json ActiveDaemon::status() const {
                    {"held", face.map.version != 0 && !face.problem.empty()},
                    {"map_version", face.map.version},
                    {"finder", face.finder},
-                   {"choices", face.choices},
+                   {"others", face.others},
                    {"pinned", face.pinned}}},
                  {"sending", sending_json(state)},
                  {"detector", {{"name", state.detector}, {"model", state.model}}},
@@ -304,9 +314,9 @@ void ActiveDaemon::tell_watchers() {
                                                                                      ? state.camera_problem
                                                                                  : state.camera_open ? "camera open"
                                                                                                      : "camera closed");
-  if (face.open || !face.problem.empty()) {
-    say_face_.say(face.problem.empty() ? spdlog::level::info : spdlog::level::warn,
-                  face.problem.empty() ? "face found" : face.problem);
+  if (face.open || no_face(face)) {
+    say_face_.say(no_face(face) ? spdlog::level::warn : spdlog::level::info,
+                  no_face(face) ? face.problem : "face found");
   }
 }
 

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "face_worker.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
-#include <exception>
 #include <utility>
 
 namespace telehug {
@@ -24,6 +25,7 @@ FaceWorker::FaceWorker(std::unique_ptr<ScreenGrabber> grabber, std::unique_ptr<F
       finder_(std::move(finder)),
       step_(*grabber_, *finder_, config),
       live_(grabber_->is_live()),
+      pins_window_(grabber_->pins_window()),
       period_(std::chrono::duration_cast<Duration>(std::chrono::duration<double>(1 / rate_hz))),
       clock_(clock),
       latency_(metrics.latency("face")),
@@ -58,7 +60,7 @@ void FaceWorker::update(BodyMap& map) {
 
 ScreenView FaceWorker::view() const noexcept {
   const Front front = front_;
-  return {live_, front == Front::unknown ? std::nullopt : std::optional(front == Front::front)};
+  return {live_, pins_window_, front == Front::unknown ? std::nullopt : std::optional(front == Front::front)};
 }
 
 void FaceWorker::order(FaceOrder order) {
@@ -69,9 +71,9 @@ void FaceWorker::order(FaceOrder order) {
   changed_.notify_one();
 }
 
-void FaceWorker::leave_out(std::vector<cv::Rect> areas_px) {
+void FaceWorker::leave_out(const std::vector<cv::Rect>& areas_px) {
   const std::lock_guard lock(mutex_);
-  left_out_px_ = std::move(areas_px);
+  left_out_px_ = areas_px;
 }
 
 FaceState FaceWorker::state() const {
@@ -86,13 +88,12 @@ void FaceWorker::work() {
     const std::vector<FaceOrder> orders = std::exchange(orders_, {});
     auto left_out_px = std::exchange(left_out_px_, std::nullopt);
     lock.unlock();
-    if (left_out_px) grabber_->leave_out(*std::move(left_out_px));
     const Timestamp started = clock_.now();
-    obey(orders);
-    if (wanted) {
-      look();
-    } else {
-      rest();
+    try {
+      if (left_out_px) grabber_->leave_out(*left_out_px);
+      do_round(wanted, orders);
+    } catch (const std::exception& fault) {  // of a library, on a picture that it can't bear
+      fail(fault);
     }
     lock.lock();
     // A look that belongs to an earlier wish says nothing about this one.
@@ -104,6 +105,23 @@ void FaceWorker::work() {
       changed_.wait(lock, next);
     }
   }
+}
+
+void FaceWorker::do_round(bool wanted, const std::vector<FaceOrder>& orders) {
+  obey(orders);
+  if (wanted) {
+    look();
+  } else {
+    rest();
+  }
+}
+
+void FaceWorker::fail(const std::exception& fault) {
+  newest_.put(BodyMap{});
+  front_ = Front::unknown;
+  const std::lock_guard lock(mutex_);
+  state_.map = {};
+  state_.problem = fmt::format("the picture of the screen can't be searched: {}", fault.what());
 }
 
 void FaceWorker::obey(const std::vector<FaceOrder>& orders) {
@@ -124,21 +142,15 @@ void FaceWorker::obey(const std::vector<FaceOrder>& orders) {
 
 void FaceWorker::look() {
   const Timestamp started = clock_.now();
-  std::string problem;
-  BodyMap map;
-  try {
-    if (const Status opened = grabber_->open(); !opened) problem = opened.error().message;
-    map = step_.run();
-    if (problem.empty()) problem = step_.problem();
-  } catch (const std::exception& fault) {  // of a library, on a picture that it can't bear
-    problem = std::string("the picture of the screen can't be searched: ") + fault.what();
-  }
+  const Status opened = grabber_->open();
+  const BodyMap map = step_.run();
+  std::string problem = opened ? step_.problem() : opened.error().message;
   const auto in_front = step_.in_front();
   front_ = !in_front ? Front::unknown : *in_front ? Front::front : Front::covered;
   newest_.put(map);
-  if (problem.empty()) last_face_ = started;
-  latency_.record(clock_.now() - started);
   const RemoteFaceFollower& follower = step_.follower();
+  if (problem.empty() || follower.why_nobody() != NobodyFollowed::no_face) last_face_ = started;
+  latency_.record(clock_.now() - started);
   const std::lock_guard lock(mutex_);
   const auto scale = step_.scale();
   state_ = {.screen = grabber_->name(),
@@ -148,13 +160,14 @@ void FaceWorker::look() {
             .map = map,
             .scale = scale ? std::optional(*scale) : std::nullopt,
             .remark = grabber_->remark(),
-            .choices = follower.choices(),
+            .others = follower.others(),
             .pinned = follower.pinned()};
 }
 
 void FaceWorker::rest() {
   newest_.put(BodyMap{});
   front_ = Front::unknown;
+  step_.rest();
   grabber_->close();
   last_face_ = clock_.now();
   const std::lock_guard lock(mutex_);

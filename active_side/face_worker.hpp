@@ -3,6 +3,7 @@
 
 #include <atomic>
 #include <condition_variable>
+#include <exception>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -26,7 +27,7 @@ struct FaceState {
   BodyMap map;
   std::optional<ScreenScale> scale;  // of the monitor's pixels, if it is looked at
   std::string remark;                // what the user should know of the screen although all works; may be empty
-  int choices = 0;                   // faces that may be followed, the followed one included
+  int others = 0;                    // faces that could be followed instead
   bool pinned = false;
 };
 
@@ -60,7 +61,7 @@ class FaceWorker {
   [[nodiscard]] ScreenView view() const noexcept;
 
   // Where telehug itself draws on the monitor, px: not looked at from the next look on. From any thread.
-  void leave_out(std::vector<cv::Rect> areas_px);
+  void leave_out(const std::vector<cv::Rect>& areas_px);
 
   // Done before the next look, which comes at once. From any thread.
   void order(FaceOrder order);
@@ -71,6 +72,8 @@ class FaceWorker {
   enum class Front { unknown, front, covered };
 
   void work();
+  void do_round(bool wanted, const std::vector<FaceOrder>& orders);
+  void fail(const std::exception& fault);
   void obey(const std::vector<FaceOrder>& orders);
   void look();
   void rest();
@@ -79,6 +82,7 @@ class FaceWorker {
   std::unique_ptr<FaceFinder> finder_;
   BodyMapStep step_;
   const bool live_;
+  const bool pins_window_;
   Duration period_;
   const Clock& clock_;
   LatencyHistogram& latency_;

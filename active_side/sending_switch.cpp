@@ -29,6 +29,7 @@ const char* name_of(SendingMode mode) {
 
 SendingVerdict judge_sending(SendingMode mode, bool only_in_front, const ScreenView& screen) {
   if (mode == SendingMode::off) return SendingVerdict::switched_off;
+  if (screen.pins_window && !screen.in_front) return SendingVerdict::not_seen;
   if (screen.in_front) return *screen.in_front || !only_in_front ? SendingVerdict::sends : SendingVerdict::covered;
   return mode == SendingMode::on || !screen.live ? SendingVerdict::sends : SendingVerdict::never_pinned;
 }
@@ -41,8 +42,13 @@ void SendingSwitch::serve(ControlServer& control) {
 }
 
 void SendingSwitch::toggle() {
-  mode_ = mode_ == SendingMode::off ? SendingMode::automatic : SendingMode::off;
-  spdlog::info("sending touches: {}", name_of(mode_));
+  set(mode_ == SendingMode::off ? before_off_.load() : SendingMode::off);
+}
+
+void SendingSwitch::set(SendingMode mode) {
+  const SendingMode before = mode_.exchange(mode);
+  if (mode == SendingMode::off && before != SendingMode::off) before_off_ = before;
+  spdlog::info("sending touches: {}", name_of(mode));
 }
 
 nlohmann::json SendingSwitch::set(const nlohmann::json& request) {
@@ -51,8 +57,7 @@ nlohmann::json SendingSwitch::set(const nlohmann::json& request) {
   if (name == "toggle") {
     toggle();
   } else if (const auto mode = mode_named(name)) {
-    mode_ = *mode;
-    spdlog::info("sending touches: {}", name_of(mode_));
+    set(*mode);
   } else {
     return {{"error", "\"mode\" is one of on, off, auto, toggle"}};
   }

@@ -19,13 +19,15 @@ enum class SendingMode {
 // What is known of the screen.
 struct ScreenView {
   bool live = false;             // it shows what happens now, not a file
-  std::optional<bool> in_front;  // is the pinned window in front? none: no window is pinned
+  bool pins_window = false;      // one window is to be looked at
+  std::optional<bool> in_front;  // is that in front? none: no window is pinned, or it is not seen
 };
 
 enum class SendingVerdict {
   sends,
   switched_off,
-  covered,       // another window covers the pinned one
+  not_seen,      // the pinned window is not there, or not looked at
+  covered,       // another window covers it
   never_pinned,  // no window is pinned, so that only `on` sends
 };
 
@@ -42,7 +44,7 @@ class SendingSwitch {
   // toggle.
   void serve(ControlServer& control);
 
-  // Off if it was on or on its own, else on its own again.
+  // Off, or again as it was before.
   void toggle();
 
   [[nodiscard]] SendingMode mode() const noexcept { return mode_; }
@@ -52,8 +54,10 @@ class SendingSwitch {
 
  private:
   nlohmann::json set(const nlohmann::json& request);
+  void set(SendingMode mode);
 
   std::atomic<SendingMode> mode_;
+  std::atomic<SendingMode> before_off_ = SendingMode::automatic;
   const bool only_in_front_;
 };
 

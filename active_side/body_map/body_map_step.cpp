@@ -35,30 +35,41 @@ const BodyMap& BodyMapStep::run() {
   in_front_ = outcome == GrabOutcome::lost ? std::nullopt : picture_.in_front;
   switch (outcome) {
     case GrabOutcome::unchanged:
-      return lay(follower_.unchanged(picture_.time));
+      return searched_ ? lay(follower_.unchanged(picture_.time)) : search();
     case GrabOutcome::lost:
       return lose(grabber_.last_error());
     case GrabOutcome::changed:
       break;
   }
+  searched_ = false;
   return search();
+}
+
+void BodyMapStep::rest() {
+  follower_.rest();
+  tracker_.update(picture_.time, std::nullopt, {});
+  in_front_.reset();
+  problem_.clear();
 }
 
 const BodyMap& BodyMapStep::search() {
   notice_another_view();
   const auto faces = finder_.find(picture_.bgr);
   if (!faces) return lose(faces.error().message);
+  searched_ = true;
   return lay(follower_.look(picture_.time, picture_.bgr, *faces));
 }
 
-// A moved window, another size: what was where before says nothing.
+// In another size what was where before says nothing. In a window that was moved everybody is where they were, but the
+// grid is not.
 void BodyMapStep::notice_another_view() {
   const cv::Rect view(picture_.origin_px, picture_.bgr.size());
-  const bool same = view == view_px_ && picture_.monitor.width_px == view_monitor_.width_px &&
-                    picture_.monitor.height_px == view_monitor_.height_px;
+  const bool same_size = view.size() == view_px_.size() && picture_.monitor.width_px == view_monitor_.width_px &&
+                         picture_.monitor.height_px == view_monitor_.height_px;
+  if (!same_size) follower_.start_anew();
+  if (view != view_px_) tracker_.leap_next();
   view_px_ = view;
   view_monitor_ = picture_.monitor;
-  if (!same) follower_.start_anew();
 }
 
 const BodyMap& BodyMapStep::lay(const std::optional<FollowedFace>& followed) {

@@ -44,6 +44,9 @@ class BodyMapStep {
   // Of that monitor. Fails if the screen has no size.
   [[nodiscard]] Result<ScreenScale> scale() const;
 
+  // The screen is not looked at for a while. Nothing seen before counts afterwards.
+  void rest();
+
   // By hand: whom to follow. Between runs.
   [[nodiscard]] RemoteFaceFollower& follower() { return follower_; }
   [[nodiscard]] const RemoteFaceFollower& follower() const { return follower_; }
@@ -62,6 +65,7 @@ class BodyMapStep {
   ScreenPicture picture_;
   cv::Rect view_px_;        // the looked-at part of the monitor
   ImageSize view_monitor_;  // and that monitor
+  bool searched_ = true;    // was the newest picture?
   std::optional<bool> in_front_;
   std::string problem_;
 };

@@ -36,6 +36,9 @@ class BodyMapTracker {
   // no body below it. Times must rise.
   const BodyMap& update(Timestamp time, const std::optional<MappedFace>& face, const ScreenRect& view);
 
+  // The picture has moved on the screen: the next update leaps.
+  void leap_next() { person_ = 0; }
+
   [[nodiscard]] const BodyMap& map() const { return map_; }
 
  private:

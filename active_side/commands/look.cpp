@@ -84,7 +84,7 @@ void add_look(CLI::App& app, ExitCode& result) {
   CLI::App* command =
       app.add_subcommand("look", "Print what is seen of the remote person on the screen: a line of JSON a look");
   add_config_options(*command, options->config);
-  command->add_option("--seconds", options->seconds, "How long; 0: until it is ended")->check(CLI::NonNegativeNumber);
+  command->add_option("--seconds", options->seconds, "How long; 0: until it is ended")->check(CLI::Range(0.0, 1e6));
   command->callback([options, &result] { result = look(*options); });
 }
 

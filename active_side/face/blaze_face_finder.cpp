@@ -125,7 +125,7 @@ cv::Rect2d calibrated(const Answer& face) {
 
 class BlazeFaceFinder final : public FaceFinder {
  public:
-  explicit BlazeFaceFinder(cv::dnn::Net net) : net_(std::move(net)) {}
+  explicit BlazeFaceFinder(const cv::dnn::Net& net) : net_(net) {}
 
   [[nodiscard]] std::string name() const override { return "BlazeFace"; }
 
@@ -174,11 +174,14 @@ class BlazeFaceFinder final : public FaceFinder {
     const int count = grid.cells * grid.cells * grid.anchors;
     for (int i = 0; i < count; ++i) {
       const double score = 1 / (1 + std::exp(-static_cast<double>(scores[i])));
-      if (score < least_score) continue;
+      if (!(score >= least_score)) continue;
       const int cell = i / grid.anchors;
-      const double anchor_x = (cell % grid.cells + 0.5) / grid.cells * side_px;
-      const double anchor_y = (cell / grid.cells + 0.5) / grid.cells * side_px;
+      const int column = cell % grid.cells;
+      const int row = cell / grid.cells;
+      const double anchor_x = (column + 0.5) / grid.cells * side_px;
+      const double anchor_y = (row + 0.5) / grid.cells * side_px;
       const float* const box = values + static_cast<std::ptrdiff_t>(i) * box_values;
+      if (!(box[2] > 0) || !(box[3] > 0)) continue;
       const double nose_mouth =
           std::hypot(box[mouth_value] - box[nose_value], box[mouth_value + 1] - box[nose_value + 1]);
       answers.push_back(
@@ -218,7 +221,7 @@ Result<std::unique_ptr<FaceFinder>> make_blaze_face_finder(const std::vector<fs:
   try {
     cv::dnn::Net net = cv::dnn::readNetFromONNX(bytes.data(), bytes.size());
     net.setPreferableBackend(cv::dnn::DNN_BACKEND_OPENCV);
-    return std::unique_ptr<FaceFinder>(std::make_unique<BlazeFaceFinder>(std::move(net)));
+    return std::unique_ptr<FaceFinder>(std::make_unique<BlazeFaceFinder>(net));
   } catch (const cv::Exception& exception) {
     return Error{fmt::format("OpenCV can't load the face model {}: {}", found->string(), exception.what())};
   }

@@ -40,6 +40,8 @@ const std::optional<FollowedFace>& RemoteFaceFollower::look(Timestamp time, cons
   const Timestamp before = now_;
   now_ = time;
   picture_ = picture.size();
+  // Only then: what was not seen for so long is nobody any more, even if a face is there again.
+  std::erase_if(candidates_, [&](const Candidate& candidate) { return now_ - candidate.last_seen > rules_.hold; });
   match(before, picture, faces);
   return decide();
 }
@@ -63,7 +65,13 @@ void RemoteFaceFollower::start_anew() {
   by_hand_ = false;
 }
 
-// Nearest pairs first. What was not seen for the hold time is forgotten.
+void RemoteFaceFollower::rest() {
+  candidates_.clear();
+  followed_.reset();
+  by_hand_ = false;
+}
+
+// Nearest pairs first.
 void RemoteFaceFollower::match(Timestamp before, const cv::Mat& picture, const FoundFaces& faces) {
   std::vector<std::tuple<double, std::size_t, std::size_t>> pairs;  // distance, candidate, face
   for (std::size_t c = 0; c < candidates_.size(); ++c) {
@@ -89,7 +97,6 @@ void RemoteFaceFollower::match(Timestamp before, const cv::Mat& picture, const F
     fresh.appeared = fresh.seen_since = fresh.last_seen = now_;
     update(fresh, before, picture, faces[f]);
   }
-  std::erase_if(candidates_, [&](const Candidate& candidate) { return now_ - candidate.last_seen > rules_.hold; });
 }
 
 void RemoteFaceFollower::update(Candidate& candidate, Timestamp before, const cv::Mat& picture, const FoundFace& face) {
@@ -127,16 +134,35 @@ bool RemoteFaceFollower::ready(const Candidate& candidate) const {
   return seen_now(candidate) && candidate.allowed && sure_enough(candidate) && changes(candidate);
 }
 
+bool RemoteFaceFollower::choosable(const Candidate& candidate) const {
+  return seen_now(candidate) && candidate.allowed && sure_enough(candidate) && (!live_ || candidate.changed_before);
+}
+
 RemoteFaceFollower::Candidate* RemoteFaceFollower::followed() {
   if (!followed_) return nullptr;
   const auto found = std::ranges::find(candidates_, followed_->person, &Candidate::person);
   return found == candidates_.end() ? nullptr : &*found;
 }
 
-RemoteFaceFollower::Candidate* RemoteFaceFollower::largest_ready(std::optional<Timestamp> appeared_after) {
+const RemoteFaceFollower::Candidate* RemoteFaceFollower::followed() const {
+  if (!followed_) return nullptr;
+  const auto found = std::ranges::find(candidates_, followed_->person, &Candidate::person);
+  return found == candidates_.end() ? nullptr : &*found;
+}
+
+RemoteFaceFollower::Candidate* RemoteFaceFollower::largest_ready() {
   Candidate* largest = nullptr;
   for (Candidate& candidate : candidates_) {
-    if (!ready(candidate) || (appeared_after && candidate.appeared <= *appeared_after)) continue;
+    if (ready(candidate) && (largest == nullptr || by_height(largest->box, candidate.box))) largest = &candidate;
+  }
+  return largest;
+}
+
+// What has appeared since the followed one was seen last, and was never seen beside it, is the same person elsewhere.
+RemoteFaceFollower::Candidate* RemoteFaceFollower::successor() {
+  Candidate* largest = nullptr;
+  for (Candidate& candidate : candidates_) {
+    if (!ready(candidate) || candidate.appeared <= followed_->seen || candidate.beside == followed_->person) continue;
     if (largest == nullptr || by_height(largest->box, candidate.box)) largest = &candidate;
   }
   return largest;
@@ -162,22 +188,20 @@ void RemoteFaceFollower::follow(Candidate& candidate) {
   if (candidate.person == 0) candidate.person = ++last_person_;
   followed_ = FollowedFace{candidate.person, candidate.box, candidate.last_seen};
   by_hand_ = false;
+  for (Candidate& other : candidates_)
+    other.larger_since.reset();
 }
 
 const std::optional<FollowedFace>& RemoteFaceFollower::decide() {
+  if (followed_ && now_ - followed_->seen > rules_.hold && (followed() == nullptr || !seen_now(*followed())))
+    followed_.reset();
   if (const Candidate* const seen = followed(); seen != nullptr && seen_now(*seen)) {
     followed_ = FollowedFace{seen->person, seen->box, now_};
+    for (Candidate& candidate : candidates_)
+      if (seen_now(candidate)) candidate.beside = seen->person;
     if (!by_hand_ && !pinned_) take_over();
-  } else if (followed_) {
-    const bool lost = now_ - followed_->seen > rules_.hold;
-    Candidate* const successor = largest_ready(lost ? std::nullopt : std::optional(followed_->seen));
-    if (successor != nullptr) {
-      follow(*successor);
-    } else if (lost) {
-      followed_.reset();
-    }
-  } else if (Candidate* const first = largest_ready(); first != nullptr) {
-    follow(*first);
+  } else if (Candidate* const next = followed_ ? successor() : largest_ready(); next != nullptr) {
+    follow(*next);
   }
   why_nobody_ = reason();
   return followed_;
@@ -200,7 +224,7 @@ bool RemoteFaceFollower::next() {
   Candidate* const current = followed();
   std::vector<Candidate*> others;
   for (Candidate& candidate : candidates_)
-    if (ready(candidate) && &candidate != current) others.push_back(&candidate);
+    if (choosable(candidate) && &candidate != current) others.push_back(&candidate);
   if (others.empty()) return false;
   std::ranges::sort(others, left_of);
   const auto right = std::ranges::find_if(
@@ -215,13 +239,16 @@ bool RemoteFaceFollower::pin() {
   if (!followed_) return false;
   const cv::Rect2d& box = followed_->box;
   const cv::Size2d size(pinned_width_fh * box.height, pinned_height_fh * box.height);
+  for (Candidate& candidate : candidates_)
+    candidate.larger_since.reset();
   pinned_ = cv::Rect2d(middle(box) - cv::Point2d(size.width / 2, size.height / 2), size);
   return true;
 }
 
-int RemoteFaceFollower::choices() const {
-  return static_cast<int>(
-      std::ranges::count_if(candidates_, [this](const Candidate& candidate) { return ready(candidate); }));
+int RemoteFaceFollower::others() const {
+  const Candidate* const current = followed();
+  return static_cast<int>(std::ranges::count_if(
+      candidates_, [&](const Candidate& candidate) { return choosable(candidate) && &candidate != current; }));
 }
 
 }  // namespace telehug

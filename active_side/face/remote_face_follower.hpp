@@ -47,6 +47,9 @@ class RemoteFaceFollower {
   // What is looked at is another part of the screen now: nothing seen before is of use. A pin ends.
   void start_anew();
 
+  // The screen is not looked at for a while: who is there afterwards must show again that it is somebody. A pin stays.
+  void rest();
+
   // By hand. The next face to the right that may be taken is followed until it is lost, whatever its size; false if
   // there is no other.
   bool next();
@@ -57,8 +60,8 @@ class RemoteFaceFollower {
 
   [[nodiscard]] bool pinned() const { return pinned_.has_value(); }
   [[nodiscard]] NobodyFollowed why_nobody() const { return why_nobody_; }
-  // How many faces may be followed now, the followed one included.
-  [[nodiscard]] int choices() const;
+  // How many faces next() could choose.
+  [[nodiscard]] int others() const;
 
  private:
   struct Candidate {
@@ -72,6 +75,7 @@ class RemoteFaceFollower {
     std::optional<Timestamp> changed, changed_before;  // when the picture in it last did, and the time before
     std::optional<Timestamp> larger_since;             // than the followed one, by the takeover ratio
     std::uint32_t person = 0;                          // 0: never followed
+    std::uint32_t beside = 0;                          // the followed person in whose company it was seen last
     bool allowed = false;                              // by its size and place
   };
 
@@ -82,8 +86,12 @@ class RemoteFaceFollower {
   [[nodiscard]] bool sure_enough(const Candidate& candidate) const;
   [[nodiscard]] bool changes(const Candidate& candidate) const;
   [[nodiscard]] bool ready(const Candidate& candidate) const;
+  // For a choice by hand: whoever sits still now has moved once.
+  [[nodiscard]] bool choosable(const Candidate& candidate) const;
   [[nodiscard]] Candidate* followed();
-  Candidate* largest_ready(std::optional<Timestamp> appeared_after = {});
+  [[nodiscard]] const Candidate* followed() const;
+  Candidate* successor();
+  Candidate* largest_ready();
   void take_over();
   void follow(Candidate& candidate);
   const std::optional<FollowedFace>& decide();

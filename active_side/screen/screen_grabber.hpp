@@ -50,7 +50,10 @@ class ScreenGrabber {
 
   // Parts of the monitor where telehug itself draws, px: from the next grab on what changes there is no change.
   // Grabbers whose pictures don't show that need not care.
-  virtual void leave_out(std::vector<cv::Rect> /*areas_px*/) {}
+  virtual void leave_out(const std::vector<cv::Rect>& /*areas_px*/) {}
+
+  // Is it told to look at one window only, so that it knows whether that is in front?
+  [[nodiscard]] virtual bool pins_window() const { return false; }
 
   // Does it show what happens now, so that somebody who never moves is a picture of somebody? Files don't.
   [[nodiscard]] virtual bool is_live() const = 0;

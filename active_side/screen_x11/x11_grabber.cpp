@@ -163,13 +163,13 @@ cv::Mat X11Grabber::read_keeping(X11Watch& watch, const X11View& view) {
   return pixels;
 }
 
-void X11Grabber::leave_out(std::vector<cv::Rect> areas_px) {
+void X11Grabber::leave_out(const std::vector<cv::Rect>& areas_px) {
   if (areas_px == left_out_px_) {
     return;
   }
   stale_ = stale_ || left_out_drawn_;  // what was passed over there may count again
   left_out_drawn_ = left_out_drawn_ && !areas_px.empty();
-  left_out_px_ = std::move(areas_px);
+  left_out_px_ = areas_px;
 }
 
 // XWayland shows a black root window, for windows of Wayland are none of its own.

@@ -28,13 +28,14 @@ class X11Grabber final : public ScreenGrabber {
   [[nodiscard]] bool is_open() const override { return open_; }
   GrabOutcome grab(ScreenPicture& picture) override;
   [[nodiscard]] bool is_live() const override { return true; }
+  [[nodiscard]] bool pins_window() const override { return !config_.window.empty(); }
   [[nodiscard]] std::string name() const override;
   [[nodiscard]] std::string last_error() const override { return last_error_; }
 
   // Parts of the monitor that count for nothing from now on, px of it: what is drawn there is no change, and pictures
   // go on showing what they showed there. For telehug's own overlay; a pinned window's pictures don't contain that
   // anyway, so they stay whole.
-  void leave_out(std::vector<cv::Rect> areas_px) override;
+  void leave_out(const std::vector<cv::Rect>& areas_px) override;
 
  private:
   Status connect();

@@ -14,8 +14,8 @@
 namespace telehug {
 namespace {
 
-constexpr int deepest = 8;            // frames that a window manager may have put about a window
-constexpr double hidden_share = 0.1;  // more of a window hidden: it isn't in front
+constexpr int deepest = 8;             // frames that a window manager may have put about a window
+constexpr double hidden_share = 0.05;  // more of a window hidden, as by a dialogue: it isn't in front
 
 // WM_CLASS holds two names, each ended by a 0: of the program's copy and of the program.
 bool has_class(std::string_view classes, std::string_view name) {
@@ -104,11 +104,12 @@ bool is_in_front(const X11Connection& connection, xcb_window_t window, const cv:
   for (const xcb_window_t other : *above) {
     asked.push_back(ask_cover(connection, other));
   }
-  int most_hidden_px = 0;
+  // Where two windows lie above one another it counts twice, which errs to the safe side.
+  int all_hidden_px = 0;
   for (const AskedCover& cover : asked) {
-    most_hidden_px = std::max(most_hidden_px, hidden_px(connection, cover, part_px));
+    all_hidden_px += hidden_px(connection, cover, part_px);
   }
-  return most_hidden_px <= hidden_share * part_px.area();
+  return all_hidden_px <= hidden_share * part_px.area();
 }
 
 }  // namespace telehug

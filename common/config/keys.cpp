@@ -165,7 +165,7 @@ std::vector<Key> keys_of(ActiveConfig& c) {
        "true: the chat shows the remote person as in a mirror, their left hand on the left."},
       {"body_map", "face", &c.body_map.face, "", OneOf{{"blaze", "haar"}},
        "Face finder: blaze, a small net, or haar, the thesis'."},
-      {"body_map", "rate_hz", &c.body_map.rate_hz, "Hz", Range{0.5, 60}, "How often the face is looked for."},
+      {"body_map", "rate_hz", &c.body_map.rate_hz, "Hz", Range{2, 60}, "How often the face is looked for."},
       {"body_map", "hold_ms", &c.body_map.hold_ms, "ms", Range{0, 10000},
        "How long the last face found stays in use when none is found."},
       {"body_map", "max_age_ms", &c.body_map.max_age_ms, "ms", Range{100, 30000},

@@ -221,14 +221,14 @@ TEST_F(X11WindowGrabTest, IsLostWhenItsTitleIsAnothersAndBackWhenItIsNot) {
   ASSERT_EQ(grabber->grab(picture), GrabOutcome::changed);
 }
 
-TEST_F(X11WindowGrabTest, IsInFrontUnlessMoreThanATenthIsHidden) {
+TEST_F(X11WindowGrabTest, IsInFrontUnlessMoreThanATwentiethIsHidden) {
   const auto window = open_chat();
   open({.window = "chat"});
   ASSERT_TRUE(comes_in_front());
-  const auto cover = client.open({.place_px = {100, 50, 20, 150}, .title = "cover"});
+  const auto cover = client.open({.place_px = {100, 50, 10, 150}, .title = "cover"});
   settle();
-  EXPECT_EQ(picture.in_front, true) << "just a tenth";
-  client.resize(cover, {21, 150});
+  EXPECT_EQ(picture.in_front, true) << "just a twentieth";
+  client.resize(cover, {11, 150});
   ASSERT_TRUE(goes_behind());
   client.raise(window);
   ASSERT_TRUE(comes_in_front());

@@ -41,6 +41,18 @@ TEST_F(ActivePipelineTest, SendsTheBoxUnderTheFingerWithTheThesisDetector) {
   EXPECT_NEAR(event->contacts[0].screen.y_mm, 150, 6);
 }
 
+// A finger that closes the window in front of the chat, a cloth that cleans the screen.
+TEST_F(ActivePipelineTest, SendsNoContactThatWasHeldBackUntilItIsLifted) {
+  see_for(500ms, pipeline, touching());
+  pipeline.hold_back_contacts();
+  const TouchEvent* event = see_for(500ms, pipeline, touching());
+  EXPECT_TRUE(event == nullptr || event->contacts.empty());
+  see_for(1s, pipeline, nobody());
+  event = see_for(500ms, pipeline, touching());
+  ASSERT_NE(event, nullptr);
+  EXPECT_EQ(event->contacts.size(), 1U);
+}
+
 TEST_F(ActivePipelineTest, SendsTwoFingersAtATime) {
   const cv::Mat two = DrawnScene(border, image).finger(613, 55, 57).finger(713, 50, 70).noise(1, 4).picture();
   const TouchEvent* event = see(two);

@@ -105,26 +105,51 @@ TEST_F(BodyMapStepTest, LivesOnWhenTheFinderFails) {
   look(GrabOutcome::changed, 2s);
   EXPECT_EQ(map.version, 0U);
   EXPECT_EQ(step.problem(), "The finder has failed.");
-  look(GrabOutcome::unchanged);
-  EXPECT_EQ(map.version, 0U);
   finder.faces = faces;
   look(GrabOutcome::changed);
   EXPECT_EQ(map.version, 2U);
 }
 
-TEST_F(BodyMapStepTest, HoldsNothingOverFromAnotherPlaceOrSizeOfTheWindow) {
+TEST_F(BodyMapStepTest, LeapsWithAWindowThatIsMoved) {
   look(GrabOutcome::changed);
-  finder.faces = FoundFaces{};
-  grabber.picture.origin_px.x = 99;
-  look(GrabOutcome::changed);
-  EXPECT_EQ(map.version, 0U);
-  finder.faces = FoundFaces{{.box = {300, 100, 80, 160}, .score = 1}};
+  EXPECT_TRUE(step.follower().pin());
+  grabber.picture.origin_px.x = 60;
   look(GrabOutcome::changed);
   EXPECT_EQ(map.version, 2U);
-  EXPECT_DOUBLE_EQ(map.face.x_mm, (99 + 300) * 0.5);
+  EXPECT_DOUBLE_EQ(map.face.x_mm, (60 + 300) * 0.5) << "a small move, but none of the face's";
+  EXPECT_TRUE(step.follower().pinned()) << "everybody is where they were in the window";
+}
+
+TEST_F(BodyMapStepTest, HoldsNothingOverFromAnotherSizeOfTheWindowOrTheMonitor) {
+  const FoundFaces faces = *finder.faces;
+  look(GrabOutcome::changed);
+  finder.faces = FoundFaces{};
+  grabber.picture.bgr = cv::Mat(600, 690, CV_8UC3, cv::Scalar(0, 0, 0));
+  look(GrabOutcome::changed);
+  EXPECT_EQ(map.version, 0U);
+  finder.faces = faces;
+  look(GrabOutcome::changed);
+  EXPECT_EQ(map.version, 2U);
   grabber.picture.monitor.width_px = 1600;
   look(GrabOutcome::changed);
-  EXPECT_DOUBLE_EQ(map.face.x_mm, (99 + 300) * 0.25) << "twice as many pixels on the same screen";
+  EXPECT_DOUBLE_EQ(map.face.x_mm, (100 + 300) * 0.25) << "twice as many pixels on the same screen";
+}
+
+TEST_F(BodyMapStepTest, SearchesAPictureAgainThatCouldNotBeSearched) {
+  const FoundFaces faces = *finder.faces;
+  finder.faces = Error{"The finder has failed."};
+  look(GrabOutcome::changed);
+  EXPECT_EQ(map.version, 0U);
+  finder.faces = faces;
+  look(GrabOutcome::unchanged);
+  EXPECT_EQ(map.version, 1U);
+}
+
+TEST_F(BodyMapStepTest, KnowsNobodyAnyMoreAfterARest) {
+  look(GrabOutcome::changed);
+  step.rest();
+  EXPECT_EQ(step.map().version, 0U);
+  EXPECT_FALSE(step.in_front());
 }
 
 TEST_F(BodyMapStepTest, TellsWhetherThePinnedWindowIsInFront) {

@@ -6,6 +6,7 @@ import statistics
 from true_grid import size
 
 LEAST_RIGHT = 0.98
+LEAST_STRICTLY = 0.75  # far from the edges of boxes nothing must be wrong
 LEAST_STILL = 0.99
 MOST_SETTLING_S = 1.0
 
@@ -37,8 +38,9 @@ def tell_boxes(placements):
                   f"{values[int(0.9 * (len(values) - 1))]:.3f} in 90 %, {values[-1]:.3f} at most")
     strict = sum(point.named == point.true for point in points) / len(points)
     near = sum(point.near for point in points) / len(points)
-    print(f"  {len(points)} points in {len(placements)} placements: the box itself {strict:.1%}")
-    return _verdict(f"the box, or the next one within a fifth of a box of its edge: {near:.1%}", near >= LEAST_RIGHT,
+    exact = _verdict(f"{len(points)} points in {len(placements)} placements: the box itself {strict:.1%}",
+                     strict >= LEAST_STRICTLY, f"at least {LEAST_STRICTLY:.0%}")
+    return exact & _verdict(f"the box, or the next one within a fifth of a box of its edge: {near:.1%}", near >= LEAST_RIGHT,
                     f"at least {LEAST_RIGHT:.0%}")
 
 

@@ -42,9 +42,9 @@ class WatchedGrabber final : public ScreenGrabber {
     changed.notify_all();
     return GrabOutcome::changed;
   }
-  void leave_out(std::vector<cv::Rect> areas_px) override {
+  void leave_out(const std::vector<cv::Rect>& areas_px) override {
     const std::lock_guard lock(mutex);
-    left_out_px = std::move(areas_px);
+    left_out_px = areas_px;
     changed.notify_all();
   }
   [[nodiscard]] bool is_live() const override { return false; }
@@ -113,7 +113,7 @@ TEST_F(FaceWorkerTest, LooksOnlyWhileSomebodyWantsIt) {
   worker->want(true);
   look_twice();
   EXPECT_TRUE(worker->has_looked());
-  EXPECT_TRUE(state_becomes([](const FaceState& state) { return state.map.version == 1 && state.choices == 2; }));
+  EXPECT_TRUE(state_becomes([](const FaceState& state) { return state.map.version == 1 && state.others == 1; }));
   worker->want(false);
   EXPECT_FALSE(worker->has_looked());
   EXPECT_TRUE(grabber->becomes([&] { return grabber->closings == 2; }));

@@ -9,13 +9,14 @@ namespace {
 using enum SendingMode;
 using enum SendingVerdict;
 
-const ScreenView file{.live = false, .in_front = {}};
-const ScreenView whole_screen{.live = true, .in_front = {}};
-const ScreenView in_front{.live = true, .in_front = true};
-const ScreenView behind{.live = true, .in_front = false};
+const ScreenView file{.live = false, .pins_window = false, .in_front = {}};
+const ScreenView whole_screen{.live = true, .pins_window = false, .in_front = {}};
+const ScreenView in_front{.live = true, .pins_window = true, .in_front = true};
+const ScreenView behind{.live = true, .pins_window = true, .in_front = false};
+const ScreenView window_gone{.live = true, .pins_window = true, .in_front = {}};
 
 TEST(SendingSwitch, SendsNothingWhenItIsOff) {
-  for (const ScreenView& screen : {file, whole_screen, in_front, behind})
+  for (const ScreenView& screen : {file, whole_screen, in_front, behind, window_gone})
     EXPECT_EQ(judge_sending(off, true, screen), switched_off);
 }
 
@@ -39,6 +40,13 @@ TEST(SendingSwitch, SendsNothingFromBehindAnotherWindowUnlessThatIsAllowed) {
   EXPECT_EQ(judge_sending(automatic, false, behind), sends);
 }
 
+TEST(SendingSwitch, SendsNothingWhileThePinnedWindowIsNotSeen) {
+  for (const SendingMode mode : {automatic, on}) {
+    EXPECT_EQ(judge_sending(mode, true, window_gone), not_seen);
+    EXPECT_EQ(judge_sending(mode, false, window_gone), not_seen);
+  }
+}
+
 TEST(SendingSwitch, BeginsAsConfiguredAndOffWhenThatMeansNothing) {
   EXPECT_EQ(SendingSwitch("auto", true).mode(), automatic);
   EXPECT_EQ(SendingSwitch("on", true).mode(), on);
@@ -46,10 +54,15 @@ TEST(SendingSwitch, BeginsAsConfiguredAndOffWhenThatMeansNothing) {
   EXPECT_EQ(SendingSwitch("nonsense", true).mode(), off);
 }
 
-TEST(SendingSwitch, TogglesBetweenOffAndByItself) {
-  SendingSwitch sending("on", true);
-  sending.toggle();
-  EXPECT_EQ(sending.mode(), off);
+TEST(SendingSwitch, TogglesBetweenOffAndWhatItWas) {
+  for (const char* start : {"on", "auto"}) {
+    SendingSwitch sending(start, true);
+    sending.toggle();
+    EXPECT_EQ(sending.mode(), off);
+    sending.toggle();
+    EXPECT_STREQ(name_of(sending.mode()), start);
+  }
+  SendingSwitch sending("off", true);
   sending.toggle();
   EXPECT_EQ(sending.mode(), automatic);
 }

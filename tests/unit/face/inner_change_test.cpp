@@ -56,14 +56,26 @@ TEST(InnerChange, SeesALipThatMoves) {
   EXPECT_TRUE(inside.look(after, box));
 }
 
+// However slowly, and wherever the finder sees it meanwhile.
 TEST(InnerChange, TakesAPictureThatIsDraggedForStill) {
   const cv::Mat picture = noise(CV_8UC3);
-  InnerChange inside;
-  for (int x = 0; x < 100; x += 20) {
-    cv::Mat screen(300, 400, CV_8UC3, cv::Scalar(0, 0, 0));
-    picture(cv::Rect(100, 50, 72, 100)).copyTo(screen(cv::Rect(100 + x, 50, 72, 100)));
-    EXPECT_FALSE(inside.look(screen, box + cv::Point2d(x, 0)));
+  for (const int step_px : {1, 2, 3, 5, 8, 20}) {
+    InnerChange inside;
+    for (int i = 0; i < 10; ++i) {
+      const int x = i * step_px;
+      cv::Mat screen(300, 400, CV_8UC3, cv::Scalar(0, 0, 0));
+      picture(cv::Rect(80, 30, 112, 140)).copyTo(screen(cv::Rect(80 + x, 30, 112, 140)));
+      EXPECT_FALSE(inside.look(screen, box + cv::Point2d(x + (i % 3 - 1) * 0.7, 0))) << step_px << " px a look";
+    }
   }
+}
+
+TEST(InnerChange, SeesWhoMovesToAndFroInEveryLook) {
+  InnerChange inside;
+  int changes = 0;
+  for (int i = 0; i < 10; ++i)
+    changes += inside.look(noise(CV_8UC3), box + cv::Point2d(i % 2 * 12, 0)) ? 1 : 0;
+  EXPECT_EQ(changes, 9);
 }
 
 TEST(InnerChange, BearsABoxPastThePicturesEdges) {

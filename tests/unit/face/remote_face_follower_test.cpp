@@ -109,7 +109,7 @@ TEST(RemoteFaceFollower, TakesTheLargest) {
   Screen screen;
   const FoundFaces faces{face_at(250, 500, 150), face_at(500, 500, 200), face_at(750, 500, 199, 0.99)};
   EXPECT_DOUBLE_EQ(height_of(screen.settle(faces)), 200);
-  EXPECT_EQ(screen.follower.choices(), 3);
+  EXPECT_EQ(screen.follower.others(), 2);
 }
 
 TEST(RemoteFaceFollower, LeavesOutTheOwnPictureInAnyCorner) {
@@ -213,6 +213,31 @@ TEST(RemoteFaceFollower, WaitsTheHoldTimeBeforeSomebodyWhoWasThereAllAlongIsFoll
   EXPECT_DOUBLE_EQ(middle_of(screen.look({face_at(700, 400, 190)})), 700);
 }
 
+TEST(RemoteFaceFollower, DoesNotTakeSomebodyElseForTheFollowedWhenBothWereGoneForAMoment) {
+  Screen screen;
+  screen.settle({face_at(300, 400, 200), face_at(700, 400, 190)});
+  screen.look_for(600ms, {});
+  for (int i = 0; i < 3; ++i)
+    EXPECT_DOUBLE_EQ(middle_of(screen.look({face_at(700, 400, 190)})), 300) << "a frozen picture that comes back";
+  EXPECT_DOUBLE_EQ(middle_of(screen.look({face_at(300, 400, 200), face_at(700, 400, 190)})), 300);
+}
+
+TEST(RemoteFaceFollower, KnowsNobodyAnyMoreAfterALongGapBetweenLooks) {
+  Screen screen;
+  screen.settle({face_at(500, 400, 200)});
+  screen.time += 1h;
+  screen.still = true;
+  EXPECT_FALSE(screen.look_for(5s, {face_at(500, 400, 200, 0.56)})) << "an avatar where somebody was";
+}
+
+TEST(RemoteFaceFollower, KnowsNobodyAnyMoreAfterARest) {
+  Screen screen;
+  screen.settle({face_at(500, 400, 200)});
+  screen.follower.rest();
+  screen.still = true;
+  EXPECT_FALSE(screen.look_for(5s, {face_at(500, 400, 200, 0.56)}));
+}
+
 TEST(RemoteFaceFollower, IsNotCarriedAwayByOneFalseFind) {
   Screen screen;
   screen.settle({face_at(300, 400, 200)});
@@ -267,6 +292,28 @@ TEST(RemoteFaceFollower, HasNoNextFaceWhereThereIsOnlyOne) {
   EXPECT_FALSE(screen.follower.next());
   screen.settle({face_at(500, 400, 200), face_at(900, 900, 200)});
   EXPECT_FALSE(screen.follower.next()) << "the own picture is none";
+}
+
+TEST(RemoteFaceFollower, LetsSomebodyWhoSitsStillBeChosenByHand) {
+  Screen screen;
+  const FoundFaces faces{face_at(300, 400, 200), face_at(700, 400, 190)};
+  screen.settle(faces);
+  screen.still = true;
+  screen.look_for(10s, faces);
+  EXPECT_EQ(screen.follower.others(), 1);
+  ASSERT_TRUE(screen.follower.next());
+  EXPECT_DOUBLE_EQ(middle_of(screen.look(faces)), 700);
+}
+
+TEST(RemoteFaceFollower, CountsALargerFaceAnewAfterAPin) {
+  Screen screen;
+  screen.settle({face_at(300, 400, 200)});
+  screen.look_for(1s, {face_at(300, 400, 200), face_at(700, 400, 300)});
+  screen.follower.pin();
+  screen.look_for(5s, {face_at(300, 400, 200), face_at(700, 400, 300)});
+  screen.follower.unpin();
+  EXPECT_DOUBLE_EQ(middle_of(screen.look_for(1s, {face_at(300, 400, 200), face_at(700, 400, 300)})), 300);
+  EXPECT_DOUBLE_EQ(middle_of(screen.look_for(1s, {face_at(300, 400, 200), face_at(700, 400, 300)})), 700);
 }
 
 TEST(RemoteFaceFollower, StaysWithAPinnedFaceAndWaitsForItAtItsPlace) {
