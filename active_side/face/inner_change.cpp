@@ -25,8 +25,9 @@ std::uint8_t shade_at(const cv::Mat& picture, const cv::Point& place) {
 }  // namespace
 
 cv::Point InnerChange::sample_place(std::size_t index) const {
+  const std::size_t row = index / side;
   const double across = (static_cast<double>(index % side) + 0.5) / side;
-  const double down = (static_cast<double>(index / side) + 0.5) / side;
+  const double down = (static_cast<double>(row) + 0.5) / side;
   return {cvFloor(box_.x + across * box_.width), cvFloor(box_.y + down * box_.height)};
 }
 

@@ -54,7 +54,10 @@ Result<std::optional<ScreenRegion>> parse_screen_region(std::string_view text) {
   const char* at = text.data();
   const char* const end = at + text.size();
   for (std::size_t i = 0; i < numbers.size(); ++i) {
-    if (i > 0 && (at == end || *at++ != ',')) return wrong;
+    if (i > 0) {
+      if (at == end || *at != ',') return wrong;
+      ++at;
+    }
     const auto [next, error] = std::from_chars(at, end, numbers[i]);
     if (error != std::errc() || numbers[i] < (i < 2 ? 0 : 1) || numbers[i] > most_px) return wrong;
     at = next;

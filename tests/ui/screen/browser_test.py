@@ -25,7 +25,7 @@ from xvfb import Xvfb
 WIDTH_PX, HEIGHT_PX = 1920, 1080
 RUN_S = 280  # everything is ended then
 
-POINTS = 10  # a placement
+POINTS = 50  # a placement
 PLACEMENTS = 10  # in each of the two arrangements
 SITTING_S = 9  # a person
 MOVES = [("jump", 0.8, 1.0), ("slide", -0.8, 1.2), ("jump", -0.8, 1.2), ("slide", 0.8, 1 / 1.2),
