@@ -18,6 +18,8 @@ constexpr Duration resting_round = 20ms;
 constexpr Duration housekeeping_round = 20ms;
 constexpr Duration state_interval = 100ms;
 constexpr Duration calibration_interval = 1s;
+// At 8 looks a second the grid moves less often than that in a day and a half.
+constexpr std::uint32_t versions_a_rig = 1U << 20U;
 
 }  // namespace
 
@@ -237,6 +239,7 @@ void ActiveDaemon::tell_state(Timestamp now) {
 // --- housekeeping ---
 
 void ActiveDaemon::load_rig_if_changed() {
+  std::erase_if(face_workers_, [](const auto& worker) { return worker.use_count() == 1; });
   const Timestamp now = clock_.now();
   if (calibration_time_ && now - calibration_looked_at_ < calibration_interval) return;
   calibration_looked_at_ = now;
@@ -245,19 +248,21 @@ void ActiveDaemon::load_rig_if_changed() {
   if (calibration_time_ == time) return;
   calibration_time_ = time;
 
-  auto rig = make_rig(config_, session_, clock_, metrics_);
+  auto rig = make_rig(config_, session_, clock_, metrics_, rigs_made_++ * versions_a_rig);
   const std::string problem = rig ? "" : rig.error().message;
-  const std::string note = rig ? (*rig)->note : "";
+  const std::string face_note = rig ? (*rig)->face_note : "";
   if (rig) {
+    const std::string& note = (*rig)->note;
     say_rig_.say(note.empty() ? spdlog::level::info : spdlog::level::warn,
                  fmt::format("calibration: {}{}{}", calibration_path_.string(), note.empty() ? "" : "; ", note));
+    face_workers_.push_back((*rig)->face);
     new_rig_.put(*std::move(rig));
   } else {
     say_rig_.say(spdlog::level::warn, problem);
   }
   const std::lock_guard lock(words_mutex_);
   rig_problem_ = problem;
-  rig_note_ = note;
+  face_note_ = face_note;
 }
 
 void ActiveDaemon::tell_peer() {

@@ -9,6 +9,7 @@
 #include <optional>
 #include <string>
 #include <thread>
+#include <vector>
 
 #include "capture/frame_source.hpp"
 #include "common/latest_slot.hpp"
@@ -151,9 +152,13 @@ class ActiveDaemon {
   const std::filesystem::path calibration_path_;
   std::optional<std::filesystem::file_time_type> calibration_time_;
   Timestamp calibration_looked_at_;
+  // Of all rigs that may still be in use: the last one to let go of a face worker waits for its thread, and that must
+  // not be the touch thread.
+  std::vector<std::shared_ptr<FaceWorker>> face_workers_;
+  std::uint32_t rigs_made_ = 0;
   mutable std::mutex words_mutex_;  // guards the sentences below, which the control thread reads
   std::string rig_problem_;
-  std::string rig_note_;
+  std::string face_note_;
   std::optional<SideStatus> peer_status_;
   bool told_recording_over_ = false;
   TouchedBox touched_box_;

@@ -141,7 +141,7 @@ Json ActiveDaemon::problems(const TouchThreadState& state, const FaceState& face
     const std::lock_guard lock(words_mutex_);
     if (!rig_problem_.empty())
       list.push_back(problem_json(rig_problem_, "run `telehug-active calibrate`, or correct the file"));
-    if (!rig_note_.empty()) list.push_back(problem_json(rig_note_, "telehug works, but not as well as it could"));
+    if (!face_note_.empty()) list.push_back(problem_json(face_note_, "telehug works, but not as well as it could"));
     if (!desktop_problem_.empty())
       list.push_back(problem_json(desktop_problem_, "or turn off [overlay] show and [sending] hotkey"));
   }

@@ -23,7 +23,7 @@ bool differs(double configured_mm, double calibrated_mm) {
 }  // namespace
 
 Result<std::unique_ptr<Rig>> make_rig(const ActiveConfig& config, const SessionId& session, const Clock& clock,
-                                      MetricsRegistry& metrics) {
+                                      MetricsRegistry& metrics, std::uint32_t versions_after) {
   const std::filesystem::path path = rig_file(config.rig);
   if (!std::filesystem::exists(path)) {
     return Error{
@@ -51,10 +51,8 @@ Result<std::unique_ptr<Rig>> make_rig(const ActiveConfig& config, const SessionI
   const bool real_camera = config.camera.source.starts_with("webcam");
   if (!real_camera) options.frames.frozen_after = 0;
   options.max_map_age = std::chrono::milliseconds(config.body_map.max_age_ms);
-  BodyMapStepConfig step;
-  step.screen = screen;
-  step.rules.hold = std::chrono::milliseconds(config.body_map.hold_ms);
-  step.mirrored = config.body_map.mirrored;
+  BodyMapStepConfig step = body_map_step_config(config.body_map, screen);
+  step.tracker.versions_after = versions_after;
   auto grabber = make_screen_grabber(config, clock);
   if (!grabber) return grabber.error();
   auto face = std::make_shared<FaceWorker>(*std::move(grabber), std::move(faces->finder), step, config.body_map.rate_hz,
@@ -62,6 +60,9 @@ Result<std::unique_ptr<Rig>> make_rig(const ActiveConfig& config, const SessionI
   try {
     std::optional<BorderStrip> background;
     std::string note = faces->note;
+    const std::string ignored = ignored_screen_keys(config.body_map);
+    if (!ignored.empty()) note += (note.empty() ? "" : " ") + ignored;
+    const std::string face_note = note;
     if (config.touch.detector != "thesis") {
       auto kept = read_background_of(path, *calibration);
       if (kept) {
@@ -76,7 +77,7 @@ Result<std::unique_ptr<Rig>> make_rig(const ActiveConfig& config, const SessionI
     options.tracker.up_after = std::chrono::milliseconds(config.touch.up_after_ms);
     return std::make_unique<Rig>(
         Rig{ActivePipeline(*calibration, std::move(detector), options, session, clock, metrics), std::move(face),
-            config.touch.detector, calibration->model_name(), note});
+            config.touch.detector, calibration->model_name(), face_note, note});
   } catch (const std::invalid_argument& problem) {
     return Error{fmt::format("{}: {}; calibrate again", path.string(), problem.what())};
   }

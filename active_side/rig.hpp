@@ -15,14 +15,16 @@ namespace telehug {
 struct Rig {
   ActivePipeline pipeline;
   std::shared_ptr<FaceWorker> face;
-  std::string detector;  // "thesis" or "default"
-  std::string model;     // of the calibration, likewise
-  std::string note;      // what works, but could be better; may be empty
+  std::string detector;   // "thesis" or "default"
+  std::string model;      // of the calibration, likewise
+  std::string face_note;  // why faces are not found as configured; may be empty
+  std::string note;       // that, and what else works but could be better; may be empty
 };
 
 // The error says what is wrong with the calibration, with the configuration for it, or with the face finder, and what
-// to do. `clock` and `metrics` outlive the rig.
+// to do. `clock` and `metrics` outlive the rig. `versions_after`: body maps of earlier rigs had versions up to this
+// one.
 Result<std::unique_ptr<Rig>> make_rig(const ActiveConfig& config, const SessionId& session, const Clock& clock,
-                                      MetricsRegistry& metrics);
+                                      MetricsRegistry& metrics, std::uint32_t versions_after);
 
 }  // namespace telehug

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "screen_source.hpp"
 
+#include <chrono>
 #include <cstdlib>
 #include <opencv2/core/types.hpp>
 #include <optional>
@@ -34,6 +35,21 @@ std::optional<cv::Rect> rect_of(const std::optional<ScreenRegion>& region) {
 }
 
 }  // namespace
+
+std::string ignored_screen_keys(const BodyMapConfig& config) {
+  const auto source = parse_screen_source(config.source);
+  if (!source || resolve(source->kind, config) == ScreenSourceKind::x11) return "";
+  if (config.window.empty() && config.monitor.empty()) return "";
+  return "[body_map] window and monitor mean nothing here: only X11 knows windows and monitors by name.";
+}
+
+BodyMapStepConfig body_map_step_config(const BodyMapConfig& config, const std::optional<ScreenSize>& screen) {
+  BodyMapStepConfig step;
+  step.screen = screen;
+  step.rules.hold = std::chrono::milliseconds(config.hold_ms);
+  step.mirrored = config.mirrored;
+  return step;
+}
 
 Result<std::unique_ptr<ScreenGrabber>> make_screen_grabber(const ActiveConfig& config, const Clock& clock) {
   const BodyMapConfig& map = config.body_map;

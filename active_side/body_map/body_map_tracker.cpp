@@ -44,7 +44,8 @@ BodyMapTracker::BodyMapTracker(const BodyMapTrackerConfig& config, bool mirrored
       mirrored_(mirrored),
       middle_mm_(config.filter),
       chin_mm_(config.filter),
-      log_height_(config.filter) {}
+      log_height_(config.filter),
+      last_version_(config.versions_after) {}
 
 const BodyMap& BodyMapTracker::update(Timestamp time, const std::optional<MappedFace>& face, const ScreenRect& view) {
   if (!face || !(face->face.height_mm > 0)) {

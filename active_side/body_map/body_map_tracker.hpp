@@ -11,12 +11,13 @@ namespace telehug {
 
 // Lengths in heights of the face (fh).
 struct BodyMapTrackerConfig {
-  OneEuroOptions filter;       // of the middle, the chin and the logarithm of the height, all three in fh
-  double dead_band_fh = 0.10;  // the grid stands until the filtered face is off by more: a fifth of a box ...
-  double arrived_fh = 0.025;   // ... and then glides there until it is off by less
-  Duration glide = 200ms;      // time constant
-  Duration settle = 1s;        // so long after a leap there is no dead band: the first find is only one find
-  double leap_fh = 0.5;        // who is off by more has not moved like this: the picture has; the grid leaps after it
+  OneEuroOptions filter;             // of the middle, the chin and the logarithm of the height, all three in fh
+  double dead_band_fh = 0.10;        // the grid stands until the filtered face is off by more: a fifth of a box ...
+  double arrived_fh = 0.025;         // ... and then glides there until it is off by less
+  Duration glide = 200ms;            // time constant
+  Duration settle = 1s;              // so long after a leap there is no dead band: the first find is only one find
+  std::uint32_t versions_after = 0;  // the first version is the next one: no other tracker's of the session
+  double leap_fh = 0.5;  // who is off by more has not moved like this: the picture has; the grid leaps after it
 };
 
 // The face that the map belongs to.

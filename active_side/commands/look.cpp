@@ -11,8 +11,8 @@
 #include "body_map_json.hpp"
 #include "calibration/calibration_file.hpp"
 #include "commands/config_options.hpp"
+#include "commands/face_option.hpp"
 #include "config/places.hpp"
-#include "face/make_face_finder.hpp"
 #include "screen_source.hpp"
 #include "service/log.hpp"
 #include "service/signals.hpp"
@@ -25,13 +25,10 @@ struct Options {
   double seconds = 0;
 };
 
-// Where nobody has measured the screen, one of 1 mm a pixel does as well: only pixels are printed.
-BodyMapStepConfig step_config(const ActiveConfig& config) {
-  BodyMapStepConfig step;
-  if (const auto calibration = read_calibration(rig_file(config.rig)); calibration) step.screen = calibration->screen;
-  step.rules.hold = std::chrono::milliseconds(config.body_map.hold_ms);
-  step.mirrored = config.body_map.mirrored;
-  return step;
+// Where nobody has measured the screen a pixel is taken for a millimetre: only pixels are printed.
+std::optional<ScreenSize> measured_screen(const RigConfig& config) {
+  const auto calibration = read_calibration(rig_file(config));
+  return calibration ? std::optional(calibration->screen) : std::nullopt;
 }
 
 nlohmann::json look_json(const BodyMapStep& step, Timestamp looked, const std::string& problem) {
@@ -56,11 +53,13 @@ ExitCode look(const Options& options) {
   const SteadyClock clock;
   auto grabber = make_screen_grabber(*config, clock);
   if (!grabber) return fail(ExitCode::config, grabber.error());
-  auto finder = make_face_finder(config->body_map.face);
+  const auto finder = chosen_face_finder(config->body_map.face);
   if (!finder) return fail(ExitCode::device, finder.error());
-  if (!finder->note.empty()) fmt::print(stderr, "telehug-active: {}\n", finder->note);
+  if (const std::string ignored = ignored_screen_keys(config->body_map); !ignored.empty()) {
+    fmt::print(stderr, "telehug-active: {}\n", ignored);
+  }
 
-  BodyMapStep step(**grabber, *finder->finder, step_config(*config));
+  BodyMapStep step(**grabber, **finder, body_map_step_config(config->body_map, measured_screen(config->rig)));
   const auto period = std::chrono::duration_cast<Duration>(std::chrono::duration<double>(1 / config->body_map.rate_hz));
   const Timestamp begun = clock.now();
   const auto end = begun + std::chrono::duration_cast<Duration>(std::chrono::duration<double>(options.seconds));

@@ -40,7 +40,7 @@ const std::optional<FollowedFace>& RemoteFaceFollower::look(Timestamp time, cons
   const Timestamp before = now_;
   now_ = time;
   picture_ = picture.size();
-  // Only then: what was not seen for so long is nobody any more, even if a face is there again.
+  // Before faces are matched: where somebody was seen too long ago, whoever is found there now may be another.
   std::erase_if(candidates_, [&](const Candidate& candidate) { return now_ - candidate.last_seen > rules_.hold; });
   match(before, picture, faces);
   return decide();

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <exception>
 #include <system_error>
 #include <utility>
 
@@ -55,8 +56,15 @@ ScreenShareState ScreenShare::state() const {
 
 void ScreenShare::run() {
   while (!ending_) {
-    if (!session_ && clock_.now() >= next_try_) begin();
-    if (session_) serve();
+    try {
+      if (!session_ && clock_.now() >= next_try_) begin();
+      if (session_) serve();
+    } catch (const std::exception& fault) {  // such as no memory
+      stream_.reset();
+      session_.reset();
+      next_try_ = clock_.now() + config_.retry_after;
+      say(false, fmt::format("The screen can't be shared ({}); it is tried again by itself.", fault.what()));
+    }
     if (!ending_) wait();
   }
   stream_.reset();

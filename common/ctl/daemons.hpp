@@ -53,7 +53,8 @@ ExitCode complain_of_unreachable(const Daemons& daemons);
 // What a daemon that can't be spoken to, or refuses, means to the user. Prints to stderr.
 ExitCode complain(const Daemon& daemon, ExitCode code, const std::string& sentence);
 
-// Asks every daemon the same and prints "SIDE: <done>" for each that accepts. Used by stop and resume.
+// Asks every daemon the same and prints "SIDE: <done>" for each that accepts. Used by stop, resume and the active
+// side's orders.
 ExitCode tell_all(const DaemonChoice& choice, const nlohmann::json& request, const std::string& done);
 
 }  // namespace telehug

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 telehug_test(test_boxes_under KIND unit SUBJECT face SOURCES unit/app/boxes_under_test.cpp DEPS active_app)
 telehug_test(test_face_worker KIND unit SUBJECT face SOURCES unit/app/face_worker_test.cpp DEPS active_app)
+telehug_test(test_screen_source KIND unit SUBJECT face SOURCES unit/app/screen_source_test.cpp DEPS active_app)
 telehug_test(test_sending KIND unit SUBJECT face
   SOURCES unit/app/sending_switch_test.cpp unit/app/touched_box_test.cpp DEPS active_app)
 telehug_test(test_demo_verdict KIND unit SUBJECT touch SOURCES unit/app/demo_verdict_test.cpp DEPS demonstration)

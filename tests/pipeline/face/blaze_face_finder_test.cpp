@@ -33,28 +33,6 @@ std::string bytes_of_the_model() {
   return {};
 }
 
-TEST(BlazeFaceFinder, FindsTheRemoteFaceFromHairlineToChin) {
-  const auto finder = blaze();
-  const auto labels = read_face_labels(chat);
-  ASSERT_TRUE(labels) << labels.error().message;
-  ASSERT_TRUE(*labels);
-  for (const auto& [name, label] : **labels) {
-    SCOPED_TRACE(name);
-    const auto picture = read_picture(chat / name);
-    ASSERT_TRUE(picture) << picture.error().message;
-    const auto faces = finder->find(*picture);
-    ASSERT_TRUE(faces) << faces.error().message;
-    const auto face = largest_face(*faces);
-    ASSERT_TRUE(face);
-    const cv::Rect2d& truth = label.faces.front().box;
-    EXPECT_NEAR(face->box.height, truth.height, 0.08 * truth.height);
-    EXPECT_NEAR(face->box.x + face->box.width / 2, truth.x + truth.width / 2, 0.05 * truth.height);
-    EXPECT_NEAR(face->box.br().y, truth.br().y, 0.06 * truth.height);
-    EXPECT_GE(face->score, 0.75);
-    EXPECT_LE(face->score, 1);
-  }
-}
-
 TEST(BlazeFaceFinder, FindsTheSameInAPictureWithAFourthChannel) {
   const auto finder = blaze();
   const auto picture = read_picture(chat / "02_self.jpg");

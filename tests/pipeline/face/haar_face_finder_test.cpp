@@ -5,7 +5,6 @@
 
 #include "doubles/largest_face.hpp"
 #include "doubles/temporary_folder.hpp"
-#include "eval_face/face_labels.hpp"
 #include "pictures/picture_file.hpp"
 
 namespace telehug {
@@ -19,28 +18,6 @@ std::unique_ptr<FaceFinder> haar() {
   auto finder = make_haar_face_finder();
   EXPECT_TRUE(finder) << finder.error().message;
   return finder ? std::move(*finder) : nullptr;
-}
-
-TEST(HaarFaceFinder, FindsTheRemoteFaceFromHairlineToChin) {
-  const auto finder = haar();
-  const auto labels = read_face_labels(chat);
-  ASSERT_TRUE(labels) << labels.error().message;
-  ASSERT_TRUE(*labels);
-  for (const auto& [name, label] : **labels) {
-    SCOPED_TRACE(name);
-    const auto picture = read_picture(chat / name);
-    ASSERT_TRUE(picture) << picture.error().message;
-    const auto faces = finder->find(*picture);
-    ASSERT_TRUE(faces) << faces.error().message;
-    const auto face = largest_face(*faces);
-    ASSERT_TRUE(face);
-    const cv::Rect2d& truth = label.faces.front().box;
-    EXPECT_NEAR(face->box.height, truth.height, 0.15 * truth.height);
-    EXPECT_NEAR(face->box.x + face->box.width / 2, truth.x + truth.width / 2, 0.12 * truth.height);
-    EXPECT_NEAR(face->box.br().y, truth.br().y, 0.12 * truth.height);
-    EXPECT_GE(face->score, 0.75);
-    EXPECT_LT(face->score, 1);
-  }
 }
 
 TEST(HaarFaceFinder, FindsTheFaceInTheSamePlaceOfACrop) {

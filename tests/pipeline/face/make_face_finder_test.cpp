@@ -5,7 +5,10 @@
 
 #include <utility>
 
+#include "doubles/largest_face.hpp"
 #include "doubles/temporary_folder.hpp"
+#include "eval_face/face_labels.hpp"
+#include "pictures/picture_file.hpp"
 
 namespace telehug {
 namespace {
@@ -28,9 +31,15 @@ TEST(MakeFaceFinder, MakesTheOneThatIsAskedFor) {
   EXPECT_EQ(make_face_finder("haar")->note, "");
 }
 
-class AnyFaceFinder : public testing::TestWithParam<const char*> {
+// How exact a finder is on the labelled pictures, in heights of the face.
+struct Exactness {
+  const char* finder;
+  double height, middle, chin;
+};
+
+class AnyFaceFinder : public testing::TestWithParam<Exactness> {
  protected:
-  std::unique_ptr<FaceFinder> finder = std::move(make_face_finder(GetParam())->finder);
+  std::unique_ptr<FaceFinder> finder = std::move(make_face_finder(GetParam().finder)->finder);
 };
 
 TEST_P(AnyFaceFinder, FindsNothingInAnEmptyOrUniformPicture) {
@@ -50,7 +59,30 @@ TEST_P(AnyFaceFinder, RefusesAPictureThatIsNotBgr) {
   EXPECT_THAT(faces.error().message, HasSubstr("BGR"));
 }
 
-INSTANTIATE_TEST_SUITE_P(Both, AnyFaceFinder, testing::Values("blaze", "haar"));
+TEST_P(AnyFaceFinder, FindsTheRemoteFaceFromHairlineToChin) {
+  const std::filesystem::path chat = std::filesystem::path(TELEHUG_FIXTURES) / "chat";
+  const auto labels = read_face_labels(chat);
+  ASSERT_TRUE(labels) << labels.error().message;
+  ASSERT_TRUE(*labels);
+  for (const auto& [name, label] : **labels) {
+    SCOPED_TRACE(name);
+    const auto picture = read_picture(chat / name);
+    ASSERT_TRUE(picture) << picture.error().message;
+    const auto faces = finder->find(*picture);
+    ASSERT_TRUE(faces) << faces.error().message;
+    const auto face = largest_face(*faces);
+    ASSERT_TRUE(face);
+    const cv::Rect2d& truth = label.faces.front().box;
+    EXPECT_NEAR(face->box.height, truth.height, GetParam().height * truth.height);
+    EXPECT_NEAR(face->box.x + face->box.width / 2, truth.x + truth.width / 2, GetParam().middle * truth.height);
+    EXPECT_NEAR(face->box.br().y, truth.br().y, GetParam().chin * truth.height);
+    EXPECT_GE(face->score, 0.75);
+    EXPECT_LE(face->score, 1);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Both, AnyFaceFinder,
+                         testing::Values(Exactness{"blaze", 0.08, 0.05, 0.06}, Exactness{"haar", 0.15, 0.12, 0.12}));
 
 }  // namespace
 }  // namespace telehug

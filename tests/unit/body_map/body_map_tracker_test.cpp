@@ -161,6 +161,14 @@ TEST(BodyMapTracker, NeverUsesAVersionTwice) {
   EXPECT_EQ(looks.at(face_at(240, 120)).version, 2U);
 }
 
+TEST(BodyMapTracker, UsesNoVersionThatAnotherOneMayHaveUsed) {
+  BodyMapTrackerConfig config;
+  config.versions_after = 5000;
+  BodyMapTracker later(config);
+  const Timestamp time = from_ns(1'000'000'000);
+  EXPECT_EQ(later.update(time, MappedFace{1, face_at(240, 120), time}, view).version, 5001U);
+}
+
 TEST(BodyMapTracker, EndsTheGridWhereAnotherViewEnds) {
   Looks looks;
   looks.at(face_at(240, 120));
