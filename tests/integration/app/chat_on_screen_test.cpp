@@ -146,6 +146,15 @@ TEST_F(ChatOnScreen, IsNotFeltFromAScreenWithoutAPinnedWindowUntilSendingIsSwitc
   EXPECT_TRUE(becomes_felt()) << pair.logs();
 }
 
+TEST_F(ChatOnScreen, IsLookedForInTheRegionOnly) {
+  const Chat chat(xvfb.display());
+  pin_the_chat();
+  pair.active_settings.emplace_back("body_map.region=0,0,480,1080");
+  start_all();
+  EXPECT_TRUE(eventually([&] { return pair.complains(Side::active, "No face"); })) << pair.logs();
+  EXPECT_EQ(pair.counter(Side::active, "events_published"), 0U);
+}
+
 TEST_F(ChatOnScreen, IsFeltAgainWhenTheWindowIsBack) {
   X11Client others(xvfb.display());
   const Chat chat(xvfb.display());

@@ -221,6 +221,17 @@ TEST_F(X11WindowGrabTest, IsLostWhenItsTitleIsAnothersAndBackWhenItIsNot) {
   ASSERT_EQ(grabber->grab(picture), GrabOutcome::changed);
 }
 
+TEST_F(X11WindowGrabTest, IsNotInFrontOfManySmallWindowsTogether) {
+  open_chat();
+  open({.window = "chat"});
+  ASSERT_TRUE(comes_in_front());
+  client.open({.place_px = {100, 50, 8, 150}, .title = "first cover"});
+  settle();
+  EXPECT_EQ(picture.in_front, true);
+  client.open({.place_px = {150, 50, 8, 150}, .title = "second cover"});
+  EXPECT_TRUE(goes_behind());
+}
+
 TEST_F(X11WindowGrabTest, IsInFrontUnlessMoreThanATwentiethIsHidden) {
   const auto window = open_chat();
   open({.window = "chat"});

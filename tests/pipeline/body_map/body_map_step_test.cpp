@@ -145,9 +145,21 @@ TEST_F(BodyMapStepTest, SearchesAPictureAgainThatCouldNotBeSearched) {
   EXPECT_EQ(map.version, 1U);
 }
 
-TEST_F(BodyMapStepTest, KnowsNobodyAnyMoreAfterARest) {
+TEST_F(BodyMapStepTest, HasNobodyToChooseWhileTheScreenIsNotSeen) {
+  finder.faces = FoundFaces{{.box = {300, 100, 80, 160}, .score = 1}, {.box = {450, 100, 75, 150}, .score = 1}};
   look(GrabOutcome::changed);
+  EXPECT_EQ(step.follower().others(), 1);
+  look(GrabOutcome::lost);
+  EXPECT_EQ(step.follower().others(), 0);
+  EXPECT_FALSE(step.follower().next());
+}
+
+TEST_F(BodyMapStepTest, KnowsNobodyAnyMoreAfterARest) {
+  finder.faces = FoundFaces{{.box = {300, 100, 80, 160}, .score = 1}, {.box = {450, 100, 75, 150}, .score = 1}};
+  look(GrabOutcome::changed);
+  EXPECT_EQ(step.follower().others(), 1);
   step.rest();
+  EXPECT_EQ(step.follower().others(), 0);
   EXPECT_EQ(step.map().version, 0U);
   EXPECT_FALSE(step.in_front());
 }

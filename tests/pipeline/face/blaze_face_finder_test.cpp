@@ -49,6 +49,28 @@ TEST(BlazeFaceFinder, FindsTheSameInAPictureWithAFourthChannel) {
   }
 }
 
+// A picture is halved before it is interpolated, so that one that was halved twice gives the same.
+TEST(BlazeFaceFinder, AveragesALargePictureInsteadOfSkippingPixels) {
+  const auto finder = blaze();
+  const auto picture = read_picture(chat / "02_self.jpg");
+  ASSERT_TRUE(picture);
+  cv::Mat large;
+  cv::resize(*picture, large, {1920, 1536}, 0, 0, cv::INTER_LINEAR);
+  cv::Mat half;
+  cv::Mat quarter;
+  cv::resize(large, half, {960, 768}, 0, 0, cv::INTER_AREA);
+  cv::resize(half, quarter, {480, 384}, 0, 0, cv::INTER_AREA);
+  const auto in_large = finder->find(large);
+  const auto in_quarter = finder->find(quarter);
+  ASSERT_TRUE(in_large && in_quarter);
+  ASSERT_FALSE(in_large->empty());
+  ASSERT_EQ(in_large->size(), in_quarter->size());
+  for (std::size_t i = 0; i < in_large->size(); ++i) {
+    EXPECT_NEAR((*in_large)[i].score, (*in_quarter)[i].score, 1e-6);
+    EXPECT_NEAR((*in_large)[i].box.height, 4 * (*in_quarter)[i].box.height, 1e-3);
+  }
+}
+
 // In wide and in high pictures, from 160 px on; below 130 px heights are off by a tenth.
 TEST(BlazeFaceFinder, FindsAFaceOfManySizesAtItsPlace) {
   const auto finder = blaze();

@@ -35,6 +35,7 @@ class WatchedGrabber final : public ScreenGrabber {
   [[nodiscard]] bool is_open() const override { return open_; }
   GrabOutcome grab(ScreenPicture& picture) override {
     const std::lock_guard lock(mutex);
+    if (moving) picture_.bgr.setTo(cv::Scalar::all(grabs * 40 % 256));
     picture = picture_;
     picture.time = std::chrono::steady_clock::now();
     picture.in_front = in_front;
@@ -47,7 +48,7 @@ class WatchedGrabber final : public ScreenGrabber {
     left_out_px = areas_px;
     changed.notify_all();
   }
-  [[nodiscard]] bool is_live() const override { return false; }
+  [[nodiscard]] bool is_live() const override { return true; }
   [[nodiscard]] std::string name() const override { return "watched"; }
   [[nodiscard]] std::string last_error() const override { return ""; }
 
@@ -59,6 +60,7 @@ class WatchedGrabber final : public ScreenGrabber {
 
   std::mutex mutex;
   std::condition_variable changed;
+  bool moving = true;
   std::optional<bool> in_front;
   std::vector<cv::Rect> left_out_px;
   int grabs = 0;
@@ -113,10 +115,25 @@ TEST_F(FaceWorkerTest, LooksOnlyWhileSomebodyWantsIt) {
   worker->want(true);
   look_twice();
   EXPECT_TRUE(worker->has_looked());
-  EXPECT_TRUE(state_becomes([](const FaceState& state) { return state.map.version == 1 && state.others == 1; }));
+  EXPECT_TRUE(state_becomes([](const FaceState& state) { return state.map.version != 0 && state.others == 1; }));
   worker->want(false);
   EXPECT_FALSE(worker->has_looked());
   EXPECT_TRUE(grabber->becomes([&] { return grabber->closings == 2; }));
+}
+
+TEST_F(FaceWorkerTest, KnowsNobodyAnyMoreAfterARest) {
+  worker->want(true);
+  ASSERT_TRUE(state_becomes([](const FaceState& state) { return state.map.version != 0; }));
+  worker->want(false);
+  ASSERT_TRUE(grabber->becomes([&] { return !grabber->is_open(); }));
+  {
+    const std::lock_guard lock(grabber->mutex);
+    grabber->moving = false;
+  }
+  worker->want(true);
+  for (int i = 0; i < 5; ++i)
+    look_twice();
+  EXPECT_EQ(worker->state().map.version, 0U) << "a still picture where somebody was";
 }
 
 TEST_F(FaceWorkerTest, TellsWhetherThePinnedWindowIsInFront) {
@@ -141,7 +158,7 @@ TEST_F(FaceWorkerTest, TellsWhetherThePinnedWindowIsInFront) {
 
 TEST_F(FaceWorkerTest, ObeysBeforeTheNextLook) {
   worker->want(true);
-  ASSERT_TRUE(state_becomes([](const FaceState& state) { return state.map.version == 1; }));
+  ASSERT_TRUE(state_becomes([](const FaceState& state) { return state.map.version != 0 && state.others == 1; }));
   const auto followed_x = [](const FaceState& state) { return state.map.face.x_mm; };
   EXPECT_DOUBLE_EQ(followed_x(worker->state()), 100);
   worker->order(FaceOrder::next);

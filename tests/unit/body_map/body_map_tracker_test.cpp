@@ -82,7 +82,7 @@ TEST(BodyMapTracker, GlidesToAFaceThatLeftTheDeadBand) {
   for (const ScreenRect& face : {face_at(270, 120), face_at(210, 120), face_at(240, 150), face_at(240, 90),
                                  face_at(240, 120, 130), face_at(240, 120, 80)}) {
     Looks looks;
-    looks.at(face_at(240, 120));
+    looks.at_for(2s, face_at(240, 120));
     const BodyMap& map = looks.at_for(2s, face);
     EXPECT_GT(map.version, 2U) << "in more than one step";
     EXPECT_NEAR(middle_of(map), face.x_mm + face.width_mm / 2, 4);
@@ -151,6 +151,34 @@ TEST(BodyMapTracker, StandsWhereItWasWhileAFaceIsHeld) {
   EXPECT_EQ(map.version, 1U);
   EXPECT_EQ(map.seen, seen);
   EXPECT_DOUBLE_EQ(middle_of(map), 240);
+}
+
+// Casiez et al.: the filter needs the time since it was fed last, however long the face was held meanwhile.
+TEST(BodyMapTracker, FiltersOverTheWholeTimeInWhichAFaceWasHeld) {
+  Looks looks;
+  looks.at_for(2s, face_at(240, 120));
+  for (int i = 0; i < 8; ++i)
+    looks.held();
+  OneEuroFilter middle;
+  middle.reset(240);
+  middle.update(260, 9 * 0.125, 100);
+  const double share = 1 - std::exp(-0.125 / 0.2);
+  EXPECT_NEAR(middle_of(looks.at(face_at(260, 120))), std::lerp(240, middle.value(), share), 1e-6);
+}
+
+TEST(BodyMapTracker, MovesInHeightsOfTheFaceHoweverLargeThatIs) {
+  std::mt19937 random{5};
+  std::normal_distribution<double> step(0, 6);
+  Looks small;
+  Looks large;
+  double off = 0;
+  for (int i = 0; i < 200; ++i) {
+    off += step(random);
+    const double at = 40 * std::sin(off / 40);
+    small.at(face_at(120 + at, 60 + at / 4, 50));
+    large.at(face_at(240 + 2 * at, 120 + at / 2, 100));
+    ASSERT_NEAR(2 * middle_of(small.tracker.map()), middle_of(large.tracker.map()), 1e-6) << "look " << i;
+  }
 }
 
 TEST(BodyMapTracker, NeverUsesAVersionTwice) {

@@ -70,6 +70,13 @@ TEST(InnerChange, TakesAPictureThatIsDraggedForStill) {
   }
 }
 
+TEST(InnerChange, TakesAStillPictureForStillWhereTheFinderWavers) {
+  const cv::Mat picture = noise(CV_8UC3);
+  InnerChange inside;
+  for (int i = 0; i < 10; ++i)
+    EXPECT_FALSE(inside.look(picture, box + cv::Point2d(i % 2 * 12, 0)));
+}
+
 TEST(InnerChange, SeesWhoMovesToAndFroInEveryLook) {
   InnerChange inside;
   int changes = 0;
