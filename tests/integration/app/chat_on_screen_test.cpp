@@ -189,7 +189,7 @@ TEST_F(ChatOnScreen, IsToldWhenThereIsNoDisplay) {
   EXPECT_EQ(pair.counter(Side::active, "events_published"), 0U);
 }
 
-TEST_F(ChatOnScreen, OutlinesTheTouchedBoxOnceItIsFeltWithoutLookingAtThat) {
+TEST_F(ChatOnScreen, OutlinesTheTouchedBoxOnceItIsFeltAndIsNoWindowInFrontItself) {
   X11Client onlooker(xvfb.display());
   const Chat chat(xvfb.display());
   pin_the_chat();
@@ -224,6 +224,26 @@ TEST_F(ChatOnScreen, IsToldThatTheHotkeyMeansNothing) {
   pair.active_settings.emplace_back("sending.hotkey=Hyper+H");
   start_all();
   EXPECT_TRUE(eventually([&] { return pair.complains(Side::active, "Hyper"); })) << pair.logs();
+}
+
+TEST_F(ChatOnScreen, RefusesOrdersThatMeanNothingAndChangesNothing) {
+  pair.start_active();
+  ASSERT_TRUE(eventually([&] { return pair.status(Side::active).is_object(); })) << pair.logs();
+  const auto is_refused = [&](const nlohmann::json& request) {
+    auto client = ControlClient::connect(pair.socket(Side::active));
+    const auto answer = std::get<ControlClient>(client).ask(request);
+    return answer && answer->contains("error");
+  };
+  for (const nlohmann::json& nothing : std::vector<nlohmann::json>{{{"command", "send"}},
+                                                                   {{"command", "send"}, {"mode", 1}},
+                                                                   {{"command", "send"}, {"mode", "ON"}},
+                                                                   {{"command", "face"}},
+                                                                   {{"command", "face"}, {"order", nullptr}},
+                                                                   {{"command", "face"}, {"order", "previous"}},
+                                                                   {{"command", "face"}, {"order", "next"}}}) {
+    EXPECT_TRUE(is_refused(nothing)) << nothing;
+  }
+  EXPECT_EQ(pair.status(Side::active).at("sending").at("name"), "auto");
 }
 
 TEST_F(ChatOnScreen, FollowsTheFaceThatAPersonChooses) {
