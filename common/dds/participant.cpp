@@ -46,8 +46,9 @@ DdsParticipant::Impl::Impl(const DdsSettings& settings) : side(settings.side) {
   participant = dds::DomainParticipantFactory::get_instance()->create_participant(settings.domain_id, qos, nullptr,
                                                                                   dds::StatusMask::none());
   if (participant == nullptr) {
-    throw DdsError(fmt::format("DDS could not join domain {}: are its UDP ports (from {}) free and the network up?",
-                               settings.domain_id, 7400 + 250 * settings.domain_id));
+    throw DdsError(fmt::format("DDS could not join domain {}: are its UDP ports (from {}) free and the network up{}?",
+                               settings.domain_id, 7400 + 250 * settings.domain_id,
+                               settings.security ? ", and the pair's files valid" : ""));
   }
   publisher = participant->create_publisher(in_partition(dds::PUBLISHER_QOS_DEFAULT, settings.partition));
   subscriber = participant->create_subscriber(in_partition(dds::SUBSCRIBER_QOS_DEFAULT, settings.partition));

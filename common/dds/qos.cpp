@@ -36,6 +36,24 @@ rtps::Locator_t udp_locator(const std::string& address) {
   return locator;
 }
 
+// DDS Security 1.1, 9.3 to 9.5: who is who by certificates, who may what by signed permissions, AES-GCM.
+void secure(dds::DomainParticipantQos& qos, const DdsSecurityFiles& files) {
+  auto& properties = qos.properties().properties();
+  const auto set = [&](const char* name, const std::string& value) { properties.emplace_back(name, value); };
+  const auto file = [&](const char* name, const std::filesystem::path& path) {
+    set(name, "file://" + std::filesystem::absolute(path).string());
+  };
+  set("dds.sec.auth.plugin", "builtin.PKI-DH");
+  file("dds.sec.auth.builtin.PKI-DH.identity_ca", files.identity_ca);
+  file("dds.sec.auth.builtin.PKI-DH.identity_certificate", files.certificate);
+  file("dds.sec.auth.builtin.PKI-DH.private_key", files.private_key);
+  set("dds.sec.access.plugin", "builtin.Access-Permissions");
+  file("dds.sec.access.builtin.Access-Permissions.permissions_ca", files.permissions_ca);
+  file("dds.sec.access.builtin.Access-Permissions.governance", files.governance);
+  file("dds.sec.access.builtin.Access-Permissions.permissions", files.permissions);
+  set("dds.sec.crypto.plugin", "builtin.AES-GCM-GMAC");
+}
+
 // Newest wins and nothing waits: a lost sample is made good by the next one.
 template <typename Qos>
 void best_effort_newest(Qos& qos) {
@@ -140,6 +158,7 @@ dds::DomainParticipantQos participant_qos(const DdsSettings& settings) {
   // on. Who lives is for the heartbeats to say. Announcing each second lets a late joiner match within that time.
   builtin.discovery_config.leaseDuration = Duration_t(600, 0);
   builtin.discovery_config.leaseDuration_announcementperiod = Duration_t(1, 0);
+  if (settings.security) secure(qos, *settings.security);
   return qos;
 }
 
