@@ -21,8 +21,8 @@ namespace {
 constexpr const char* loopback_address = "127.0.0.1";
 constexpr int felt_history = 64;
 // A restarted sender leaves its session behind as an instance until the lease ends; the default of 10 would refuse the
-// eleventh restart.
-constexpr int max_sessions = 1000;
+// eleventh restart. So many that a peer can't shut others out by inventing a few thousand sessions.
+constexpr int max_sessions = 100'000;
 
 rtps::Locator_t udp_locator(const std::string& address) {
   in_addr parsed{};
