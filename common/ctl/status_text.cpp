@@ -82,7 +82,9 @@ std::string peer_text(const Json& peer) {
   if (flag_at(peer, "stopped")) text += ", stopped";
   text = joined(text, ": ", text_at(peer, "reason"));
   if (const std::string ms = text_at(peer, "round_trip_ms"); !ms.empty()) text += fmt::format(", round trip {} ms", ms);
-  return line("peer", joined(text, ", ", rest_of(peer, {"connected", "stopped", "reason", "round_trip_ms"})));
+  if (const std::string ms = text_at(peer, "one_way_ms"); !ms.empty()) text += fmt::format(", to here {} ms", ms);
+  return line("peer",
+              joined(text, ", ", rest_of(peer, {"connected", "stopped", "reason", "round_trip_ms", "one_way_ms"})));
 }
 
 // Camera, screen and others that are open, closed, or neither; a touch begins with what it is. Places are for programs.

@@ -17,7 +17,9 @@ nlohmann::json peer_stop_problem_json(const std::optional<SideStatus>& told) {
 
 nlohmann::json peer_json(const PeerState& peer, const std::optional<SideStatus>& told) {
   nlohmann::json json = {{"connected", peer.alive}, {"session", peer.session}};
-  if (peer.round_trip) json["round_trip_ms"] = std::round(to_ms(*peer.round_trip) * 1000) / 1000;
+  const auto to_us_exact_ms = [](Duration duration) { return std::round(to_ms(duration) * 1000) / 1000; };
+  if (peer.round_trip) json["round_trip_ms"] = to_us_exact_ms(*peer.round_trip);
+  if (peer.one_way) json["one_way_ms"] = to_us_exact_ms(*peer.one_way);
   if (told && peer.alive) {
     json["stopped"] = told->stopped;
     json["ready"] = told->ready;

@@ -24,10 +24,12 @@ void HeartbeatExchange::heard(const Heartbeat& peer, Timestamp now) {
   if (peer.session != own_.echo_session) {
     newest_.reset();
     smoothed_.reset();
+    smallest_.reset();
   }
   own_.echo_session = peer.session;
   own_.echo_sent_time_ns = peer.sent_time_ns;
   peer_heard_ = now;
+  late_ = path_.observe(peer.session, peer.sent_time_ns, now);
 
   if (peer.echo_session != own_.session) return;
   // Differences of int64 stamps that came from outside: an impossible one must not overflow.
@@ -38,6 +40,12 @@ void HeartbeatExchange::heard(const Heartbeat& peer, Timestamp now) {
   newest_ = std::chrono::nanoseconds(away_ns - peer.echo_held_ns);
   // SRTT of RFC 6298, alpha = 1/8.
   smoothed_ = smoothed_ ? *smoothed_ + (*newest_ - *smoothed_) / 8 : *newest_;
+  smallest_ = std::min(smallest_.value_or(*newest_), *newest_);
+}
+
+std::optional<Duration> HeartbeatExchange::one_way() const noexcept {
+  if (!smallest_) return {};
+  return *smallest_ / 2 + late_;
 }
 
 }  // namespace telehug

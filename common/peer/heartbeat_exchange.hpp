@@ -6,6 +6,7 @@
 
 #include "common/clock.hpp"
 #include "common/messages.hpp"
+#include "peer/path_delay.hpp"
 
 namespace telehug {
 
@@ -32,6 +33,10 @@ class HeartbeatExchange {
   // smoothed. Empty before the first answer of the peer's present session.
   [[nodiscard]] std::optional<Duration> round_trip() const noexcept { return newest_; }
   [[nodiscard]] std::optional<Duration> smoothed_round_trip() const noexcept { return smoothed_; }
+  // How long the peer's newest heartbeat was on its way: half the session's smallest round trip, and what it was late
+  // above the smallest delay of the last seconds. Without synchronised clocks that is as near as one can get: a way
+  // that is longer than the way back by d is estimated d/2 too short.
+  [[nodiscard]] std::optional<Duration> one_way() const noexcept;
 
  private:
   Heartbeat own_;
@@ -39,6 +44,9 @@ class HeartbeatExchange {
   Timestamp peer_heard_{};
   std::optional<Duration> newest_;
   std::optional<Duration> smoothed_;
+  std::optional<Duration> smallest_;
+  PathDelay path_;
+  Duration late_{};
 };
 
 }  // namespace telehug

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "subscribe/staleness.hpp"
+#include "peer/path_delay.hpp"
 
 #include <algorithm>
 #include <limits>
 
 namespace telehug {
 
-Duration Staleness::observe(const SessionId& session, std::int64_t sent_time_ns, Timestamp now) {
+Duration PathDelay::observe(const SessionId& session, std::int64_t sent_time_ns, Timestamp now) {
   const std::int64_t now_ns = to_ns(now);
   if (session != session_) {
     session_ = session;
@@ -23,14 +23,7 @@ Duration Staleness::observe(const SessionId& session, std::int64_t sent_time_ns,
   return std::chrono::nanoseconds(difference_ns - *smallest());
 }
 
-bool Staleness::is_stale(const TouchEvent& event, Timestamp now) {
-  touch_age_ = observe(event.session, event.sent_time_ns, now);
-  const bool stale = touch_age_ > stale_age_;
-  if (stale) ++stale_count_;
-  return stale;
-}
-
-void Staleness::move_window(std::int64_t now_ns) {
+void PathDelay::move_window(std::int64_t now_ns) {
   const std::int64_t bucket = now_ns / bucket_ns;
   const auto before = smallest();
   const std::int64_t steps = std::min(bucket - newest_bucket_, static_cast<std::int64_t>(buckets));
@@ -46,7 +39,7 @@ void Staleness::move_window(std::int64_t now_ns) {
   }
 }
 
-std::optional<std::int64_t> Staleness::smallest() const noexcept {
+std::optional<std::int64_t> PathDelay::smallest() const noexcept {
   std::optional<std::int64_t> least;
   for (const auto& bucket : smallest_) {
     if (bucket) least = std::min(least.value_or(*bucket), *bucket);

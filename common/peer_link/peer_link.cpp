@@ -48,7 +48,8 @@ std::optional<HeardHeartbeat> PeerLink::serve(Timestamp now) {
 }
 
 PeerState PeerLink::state(Timestamp now) {
-  return {monitor_.alive(now), monitor_.session(), exchange_.smoothed_round_trip(), monitor_.losses()};
+  return {monitor_.alive(now), monitor_.session(), exchange_.smoothed_round_trip(), exchange_.one_way(),
+          monitor_.losses()};
 }
 
 void PeerLink::tell(const SideStatus& status) {

@@ -21,6 +21,7 @@ struct PeerState {
   bool alive = false;
   SessionId session;
   std::optional<Duration> round_trip;
+  std::optional<Duration> one_way;  // from the peer to here (HeartbeatExchange)
   std::uint64_t losses = 0;
 };
 

@@ -1,58 +1,39 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <array>
 #include <cstdint>
-#include <optional>
 
-#include "common/clock.hpp"
-#include "common/messages.hpp"
+#include "peer/path_delay.hpp"
 
 namespace telehug {
 
 inline constexpr Duration default_stale_age = 150ms;
 
-// How late a message is, although the two PCs' clocks can't be compared.
-//
-// Each message carries its sender's monotonic time. Arrival minus that time is the way plus the unknown difference of
-// the clocks; the smallest value of the last seconds stands for the shortest way, and what a message needed more than
-// that is its age. So age leaves out the shortest way itself. (The minimum filter of NTP's clock filter algorithm, RFC
-// 5905 section 10, applied one way.) Feed it with everything that the sender stamps, heartbeats too: then the minimum
-// is known before the first touch. Allocates only when a new session begins.
+// Which touches are too old to be felt, by their age above the smallest delay seen.
 class Staleness {
  public:
-  // The minimum is taken over this time, so after it a lasting change of the way or of the sender's clock (it slept) is
-  // believed.
-  static constexpr Duration window = 10s;
-  // Two PCs' quartz clocks drift apart by at most this: by so much an old minimum is let rise over a time without
-  // messages.
-  static constexpr std::int64_t max_drift_per_million = 200;
-
   explicit Staleness(Duration stale_age = default_stale_age) : stale_age_(stale_age) {}
 
-  // The age of a message that arrives now, >= 0. sent_time_ns: as the sender stamped it, >= 0. A new session begins
-  // anew with age 0 (another program, perhaps after a reboot: another clock).
-  Duration observe(const SessionId& session, std::int64_t sent_time_ns, Timestamp now);
+  // Anything else that the sender of touches stamps, so that the smallest delay is known before the first touch.
+  Duration observe(const SessionId& session, std::int64_t sent_time_ns, Timestamp now) {
+    return path_.observe(session, sent_time_ns, now);
+  }
 
-  // The same for a touch; counted if it is too old to be felt.
-  bool is_stale(const TouchEvent& event, Timestamp now);
+  // Counted if it is too old to be felt.
+  bool is_stale(const TouchEvent& event, Timestamp now) {
+    touch_age_ = path_.observe(event.session, event.sent_time_ns, now);
+    const bool stale = touch_age_ > stale_age_;
+    if (stale) ++stale_count_;
+    return stale;
+  }
 
   [[nodiscard]] std::uint64_t stale_count() const noexcept { return stale_count_; }
   // Of the newest touch.
   [[nodiscard]] Duration touch_age() const noexcept { return touch_age_; }
 
  private:
-  static constexpr std::size_t buckets = 10;
-  static constexpr std::int64_t bucket_ns = window / std::chrono::nanoseconds(1) / static_cast<std::int64_t>(buckets);
-
-  void move_window(std::int64_t now_ns);
-  [[nodiscard]] std::optional<std::int64_t> smallest() const noexcept;
-
   Duration stale_age_;
-  SessionId session_;
-  std::array<std::optional<std::int64_t>, buckets> smallest_;  // difference in ns, per bucket of arrival time
-  std::int64_t newest_bucket_ = 0;
-  std::int64_t last_arrival_ns_ = 0;
+  PathDelay path_;
   std::uint64_t stale_count_ = 0;
   Duration touch_age_{};
 };

@@ -25,13 +25,14 @@ TEST(StatusText, SaysWhatIsWrongAndWhatToDo) {
 }
 
 TEST(StatusText, ShowsPeerCameraCountersAndLatencies) {
-  const std::string text =
-      status_text({{"side", "active"},
-                   {"peer", {{"connected", true}, {"round_trip_ms", 1.5}, {"stopped", true}, {"reason", "bed time"}}},
-                   {"camera", {{"name", "C920"}, {"open", false}, {"why", "no peer"}}},
-                   {"counters", {{"touches", 12}}},
-                   {"latency_ms", {{"finger", {{"p50", 1.25}, {"p99", 2.5}, {"max", 3.0}, {"count", 100}}}}}});
-  EXPECT_THAT(text, HasSubstr("peer         connected, stopped: bed time, round trip 1.5 ms\n"));
+  const std::string text = status_text(
+      {{"side", "active"},
+       {"peer",
+        {{"connected", true}, {"round_trip_ms", 1.5}, {"one_way_ms", 0.75}, {"stopped", true}, {"reason", "bed time"}}},
+       {"camera", {{"name", "C920"}, {"open", false}, {"why", "no peer"}}},
+       {"counters", {{"touches", 12}}},
+       {"latency_ms", {{"finger", {{"p50", 1.25}, {"p99", 2.5}, {"max", 3.0}, {"count", 100}}}}}});
+  EXPECT_THAT(text, HasSubstr("peer         connected, stopped: bed time, round trip 1.5 ms, to here 0.75 ms\n"));
   EXPECT_THAT(text, HasSubstr("camera       C920, closed: no peer\n"));
   EXPECT_THAT(text, testing::ContainsRegex("touches +12\n"));
   EXPECT_THAT(text, testing::ContainsRegex("finger +1.250 +2.500 +3.000 +100\n"));

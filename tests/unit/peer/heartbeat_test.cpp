@@ -72,6 +72,20 @@ TEST(HeartbeatExchange, MeasuresTheWayWithoutTheTimeThatThePeerHeldTheStamp) {
   EXPECT_EQ(*here.smoothed_round_trip(), 7ms);
 }
 
+// Answers of a peer whose clock is an hour ahead and that is 3 ms away: what comes late, comes late on the way to here.
+TEST(HeartbeatExchange, TellsHowLongABeatWasOnItsWayAlthoughTheClocksDiffer) {
+  HeartbeatExchange here(example_session, Side::active);
+  HeartbeatExchange there(other_session, Side::passive);
+  Timestamp now = from_ns(5'000'000'000);
+  EXPECT_FALSE(here.one_way().has_value());
+  for (const Duration extra : {0ms, 40ms, 7ms}) {
+    there.heard(here.beat(now), now + 3ms + 1h);
+    here.heard(there.beat(now + 3ms + 1h), now + 6ms + extra);
+    EXPECT_EQ(here.one_way(), 3ms + extra);
+    now += 100ms;
+  }
+}
+
 TEST(HeartbeatExchange, SmoothsTheRoundTripAndForgetsItWithThePeersSession) {
   HeartbeatExchange here(example_session, Side::active);
   const Timestamp start = from_ns(1'000'000'000);
