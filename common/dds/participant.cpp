@@ -46,6 +46,7 @@ DdsParticipant::Impl::Impl(const DdsSettings& settings) : side(settings.side) {
   participant = dds::DomainParticipantFactory::get_instance()->create_participant(settings.domain_id, qos, nullptr,
                                                                                   dds::StatusMask::none());
   if (participant == nullptr) {
+    number.use_up();
     throw DdsError(fmt::format("DDS could not join domain {}: are its UDP ports (from {}) free and the network up{}?",
                                settings.domain_id, 7400 + 250 * settings.domain_id,
                                settings.security ? ", and the pair's files valid" : ""));

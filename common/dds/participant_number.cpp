@@ -31,6 +31,7 @@ ParticipantNumber::ParticipantNumber() {
 }
 
 ParticipantNumber::~ParticipantNumber() {
+  if (used_up_) return;
   const std::lock_guard lock(numbers().mutex);
   numbers().taken.reset(number_);
 }

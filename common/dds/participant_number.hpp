@@ -20,10 +20,15 @@ class ParticipantNumber {
   ParticipantNumber(const ParticipantNumber&) = delete;
   ParticipantNumber& operator=(const ParticipantNumber&) = delete;
 
+  // Never to be given out again: Fast DDS 2.9 keeps the number of a participant that it failed to create (as with a
+  // pair's files that it refuses), and would refuse every later one of that number, good as it may be.
+  void use_up() noexcept { used_up_ = true; }
+
   [[nodiscard]] std::int32_t value() const noexcept { return static_cast<std::int32_t>(number_); }
 
  private:
   std::size_t number_ = 0;
+  bool used_up_ = false;
 };
 
 }  // namespace telehug
