@@ -15,3 +15,12 @@ telehug_test(test_dds_killed_peer KIND integration SUBJECT link
 telehug_test(test_stop_switch KIND integration SUBJECT link
   SOURCES integration/daemon/stop_switch_test.cpp
   DEPS telehug_daemon telehug_peer)
+
+telehug_test(test_dds_secured KIND integration SUBJECT link
+  SOURCES integration/dds/secured_test.cpp
+  DEPS telehug_dds telehug_pairing)
+
+# The firewall's rules are understood; checked in a network of their own, so that nothing is changed.
+add_test(NAME test_firewall_rules
+  COMMAND unshare --map-root-user --net nft -c -f ${PROJECT_SOURCE_DIR}/deploy/firewall/telehug.nft)
+set_tests_properties(test_firewall_rules PROPERTIES LABELS "integration;link")

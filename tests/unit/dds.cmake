@@ -19,3 +19,7 @@ telehug_test(test_dds KIND unit SUBJECT link
 telehug_test(test_peer_link KIND unit SUBJECT link
   SOURCES unit/peer_link/stop_latch_test.cpp
   DEPS telehug_peer_link)
+
+telehug_test(test_pairing KIND unit SUBJECT link
+  SOURCES unit/pairing/pair_store_test.cpp
+  DEPS telehug_pairing)

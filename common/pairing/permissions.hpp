@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The two documents of DDS Security 1.1 that say what is protected (governance, 9.4.1.2) and who may do what
+// (permissions, 9.4.1.3).
+#pragma once
+
+#include <string>
+
+#include "common/messages.hpp"
+#include "pairing/certificates.hpp"
+
+namespace telehug {
+
+// Everything encrypted, nobody without a certificate: the same for every pair, since sides whose protection differs
+// don't meet, and don't say why.
+[[nodiscard]] std::string governance();
+
+// What `side` may do in its pair's partition: write its own topics and read the other side's (idl/README.md), nothing
+// else. subject: as subject_of() tells it.
+[[nodiscard]] std::string permissions(Side side, const std::string& subject, const std::string& partition,
+                                      const Validity& validity);
+
+}  // namespace telehug
