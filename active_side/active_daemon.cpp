@@ -23,14 +23,16 @@ constexpr std::uint32_t versions_a_rig = 1U << 20U;
 
 }  // namespace
 
-ActiveDaemon::ActiveDaemon(const ActiveConfig& config, std::unique_ptr<FrameSource> camera, const Clock& clock)
+ActiveDaemon::ActiveDaemon(const ActiveConfig& config, Membership membership, std::unique_ptr<FrameSource> camera,
+                           const Clock& clock)
     : config_(config),
+      membership_(std::move(membership)),
       clock_(clock),
       started_(clock.now()),
       session_(new_session_id()),
       camera_(std::move(camera)),
       camera_name_(camera_->name()),
-      participant_(dds_settings(config.peer, Side::active)),
+      participant_(membership_.dds),
       touch_writer_(participant_),
       peer_(participant_, Side::active, session_, std::chrono::milliseconds(config.heartbeat_timeout_ms), clock),
       events_published_(metrics_.counter("events_published")),
@@ -66,10 +68,12 @@ ExitCode ActiveDaemon::run(Signals& signals) {
   control_->start();
   touch_thread_ = std::thread([this] { touch_loop(); });
   notifier_.ready();
-  spdlog::info("telehug-active {} runs; camera: {}", version, camera_name_);
+  spdlog::info("telehug-active {} runs; camera: {}; {}", version, camera_name_, describe(membership_));
+  std::optional<std::string> over;
   while (true) {
     const auto request = signals.wait(housekeeping_round);
-    if (request == SignalRequest::stop) break;
+    over = pair_over(membership_, wall_time());
+    if (request == SignalRequest::stop || over) break;
     if (request == SignalRequest::reload) calibration_time_.reset();
     load_rig_if_changed();
     tell_watchers();
@@ -79,8 +83,9 @@ ExitCode ActiveDaemon::run(Signals& signals) {
   }
   notifier_.stopping();
   end_thread();
+  if (over) spdlog::error("{}", *over);
   spdlog::info("telehug-active ends");
-  return ExitCode::ok;
+  return over ? ExitCode::pair_ended : ExitCode::ok;
 }
 
 void ActiveDaemon::end_thread() {

@@ -15,6 +15,7 @@
 #include "common/latest_slot.hpp"
 #include "common/version.hpp"
 #include "config/config.hpp"
+#include "daemon/membership.hpp"
 #include "daemon/stop_switch.hpp"
 #include "dds/participant.hpp"
 #include "dds/reader.hpp"
@@ -68,7 +69,8 @@ struct TouchThreadState {
 class ActiveDaemon {
  public:
   // Throws AlreadyRunning, std::runtime_error or std::invalid_argument with a sentence for a person.
-  ActiveDaemon(const ActiveConfig& config, std::unique_ptr<FrameSource> camera, const Clock& clock);
+  ActiveDaemon(const ActiveConfig& config, Membership membership, std::unique_ptr<FrameSource> camera,
+               const Clock& clock);
   ~ActiveDaemon();
   ActiveDaemon(const ActiveDaemon&) = delete;
   ActiveDaemon& operator=(const ActiveDaemon&) = delete;
@@ -105,6 +107,7 @@ class ActiveDaemon {
   nlohmann::json problems(const TouchThreadState& state, const FaceState& face) const;
 
   ActiveConfig config_;
+  const Membership membership_;
   const Clock& clock_;
   Timestamp started_;
   SessionId session_;

@@ -229,6 +229,7 @@ Json ActiveDaemon::status() const {
                  {"detector", {{"name", state.detector}, {"model", state.model}}},
                  {"counters", counters},
                  {"latency_ms", metrics_.latencies_json()}};
+  if (membership_.pair) answer["pair"] = pair_json(*membership_.pair);
   if (!state.camera_setup.empty()) answer["camera"]["setup"] = state.camera_setup;
   if (face.map.version != 0 && face.scale) answer["face"]["places_px"] = body_map_json(face.map, *face.scale);
   for (const LocalTouchState& output : local_touch_.states())

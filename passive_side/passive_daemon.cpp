@@ -23,9 +23,10 @@ SafetyLimits safety_limits(const SafetyConfig& config) {
 
 }  // namespace
 
-PassiveDaemon::PassiveDaemon(const PassiveConfig& config, JacketProfile profile, std::unique_ptr<JacketLink> link,
-                             const Clock& clock)
+PassiveDaemon::PassiveDaemon(const PassiveConfig& config, Membership membership, JacketProfile profile,
+                             std::unique_ptr<JacketLink> link, const Clock& clock)
     : config_(config),
+      membership_(std::move(membership)),
       clock_(clock),
       started_(clock.now()),
       session_(new_session_id()),
@@ -36,7 +37,7 @@ PassiveDaemon::PassiveDaemon(const PassiveConfig& config, JacketProfile profile,
       events_replaced_(metrics_.counter("events_replaced_by_newer")),
       events_unvouched_(metrics_.counter("events_without_heartbeat")),
       total_latency_(metrics_.latency("event_to_link")),
-      participant_(dds_settings(config.peer, Side::passive)),
+      participant_(membership_.dds),
       felt_writer_(participant_),
       peer_(participant_, Side::passive, session_, std::chrono::milliseconds(config.safety.heartbeat_timeout_ms),
             clock),
@@ -59,17 +60,22 @@ ExitCode PassiveDaemon::run(Signals& signals) {
   control_->start();
   drive_thread_ = std::thread([this] { drive_loop(); });
   notifier_.ready();
-  spdlog::info("telehug-passive {} runs; jacket: {} on {}", version, profile_.name, config_.jacket.link);
+  spdlog::info("telehug-passive {} runs; jacket: {} on {}; {}", version, profile_.name, config_.jacket.link,
+               describe(membership_));
   for (const std::string& note : profile_.notes)
     spdlog::info("{}", note);
+  std::optional<std::string> over;
   while (signals.wait(housekeeping_round) != SignalRequest::stop) {
+    over = pair_over(membership_, wall_time());
+    if (over) break;
     tell_watchers();
     tell_peer();
   }
   notifier_.stopping();
   end_thread();
+  if (over) spdlog::error("{}", *over);
   spdlog::info("telehug-passive ends; the jacket is off");
-  return ExitCode::ok;
+  return over ? ExitCode::pair_ended : ExitCode::ok;
 }
 
 void PassiveDaemon::end_thread() {

@@ -13,6 +13,7 @@
 #include "common/latest_slot.hpp"
 #include "common/version.hpp"
 #include "config/config.hpp"
+#include "daemon/membership.hpp"
 #include "daemon/stop_switch.hpp"
 #include "dds/participant.hpp"
 #include "dds/reader.hpp"
@@ -52,8 +53,8 @@ struct RunningChange {
 class PassiveDaemon {
  public:
   // Throws AlreadyRunning, std::runtime_error or std::invalid_argument with a sentence for a person.
-  PassiveDaemon(const PassiveConfig& config, JacketProfile profile, std::unique_ptr<JacketLink> link,
-                const Clock& clock);
+  PassiveDaemon(const PassiveConfig& config, Membership membership, JacketProfile profile,
+                std::unique_ptr<JacketLink> link, const Clock& clock);
   ~PassiveDaemon();
   PassiveDaemon(const PassiveDaemon&) = delete;
   PassiveDaemon& operator=(const PassiveDaemon&) = delete;
@@ -81,6 +82,7 @@ class PassiveDaemon {
   [[nodiscard]] DriveThreadState state() const;
 
   PassiveConfig config_;
+  const Membership membership_;
   const Clock& clock_;
   Timestamp started_;
   SessionId session_;

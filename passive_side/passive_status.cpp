@@ -112,6 +112,7 @@ Json PassiveDaemon::status() const {
                    {"running", id_list(now.running)}}},
                  {"counters", counters},
                  {"latency_ms", metrics_.latencies_json()}};
+  if (membership_.pair) answer["pair"] = pair_json(*membership_.pair);
   if (now.last_felt) {
     answer["last_touch"] = felt_json(*now.last_felt);
     answer["last_touch"]["gesture"] = name_of(now.last_gesture);

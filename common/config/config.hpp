@@ -13,7 +13,9 @@ namespace telehug {
 struct PeerConfig {
   int domain = 77;        // DDS domain
   std::string partition;  // DDS partition: pairs on one network that must not hear each other take different ones
-  bool loopback_only = true;
+  bool loopback_only = false;
+  std::string pair;          // id of the pair; empty: the only one
+  std::string pairs_folder;  // see pairs_folder()
 };
 
 struct ControlConfig {

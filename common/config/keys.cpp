@@ -56,7 +56,19 @@ Rows peer_rows(PeerConfig& c) {
        &c.loopback_only,
        "",
        {},
-       "true: talk only to a peer on this PC. false: use the network."},
+       "true: talk only to a peer on this PC, even if paired. Without a pair the network is never used."},
+      {"peer",
+       "pair",
+       &c.pair,
+       "",
+       {},
+       "Which pair this PC speaks to, by its id (`telehug pair list`); empty: the only one."},
+      {"peer",
+       "pairs_folder",
+       &c.pairs_folder,
+       "",
+       {},
+       "Where the pairs of this PC are kept; empty: in the state folder of the service or user."},
   };
 }
 

@@ -43,6 +43,11 @@ std::filesystem::path screen_consent_file() {
   return state_folder() / "screen-consent";
 }
 
+std::filesystem::path pairs_folder(const PeerConfig& config, Side side) {
+  if (!config.pairs_folder.empty()) return config.pairs_folder;
+  return state_folder() / "pairs" / (side == Side::active ? "active" : "passive");
+}
+
 std::filesystem::path jacket_profile_file(const JacketConfig& config) {
   const std::filesystem::path installed = std::filesystem::path(TELEHUG_DATA_DIR) / "jackets";
   if (config.profile.empty()) return installed / "duemilanove-16.toml";

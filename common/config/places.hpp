@@ -5,6 +5,7 @@
 
 #include <filesystem>
 
+#include "common/messages.hpp"
 #include "config/config.hpp"
 
 namespace telehug {
@@ -21,6 +22,9 @@ namespace telehug {
 // What a Wayland desktop gave to be spared its question for the screen: in the first of the folders named for the
 // calibration file, wherever that lies.
 [[nodiscard]] std::filesystem::path screen_consent_file();
+
+// The pairs of this PC as one side: as configured, else pairs/active or pairs/passive in the state folder.
+[[nodiscard]] std::filesystem::path pairs_folder(const PeerConfig& config, Side side);
 
 // The jacket profile: as configured, else the installed one of the 16-motor jacket. A relative path that does not
 // exist from here, such as "duemilanove-16.toml", is looked for among the installed profiles.

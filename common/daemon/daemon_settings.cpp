@@ -5,15 +5,6 @@
 
 namespace telehug {
 
-DdsSettings dds_settings(const PeerConfig& config, Side side) {
-  DdsSettings settings;
-  settings.side = side;
-  settings.domain_id = static_cast<std::uint32_t>(config.domain);
-  if (!config.partition.empty()) settings.partition = config.partition;
-  settings.loopback_only = config.loopback_only;
-  return settings;
-}
-
 ControlServerOptions control_options(const ControlConfig& config, Side side) {
   ControlServerOptions options;
   options.socket = config.socket;

@@ -72,7 +72,8 @@ DemoWorld::~DemoWorld() {
 }
 
 std::vector<std::string> DemoWorld::peer_settings() const {
-  return {"peer.partition=" + partition_, "peer.loopback_only=true"};
+  return {"peer.partition=" + partition_, "peer.loopback_only=true",
+          "peer.pairs_folder=" + (folder_ / "pairs").string()};
 }
 
 void DemoWorld::calibrate() const {

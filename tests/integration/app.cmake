@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 add_library(running_pair STATIC integration/app/running_pair.cpp)
 target_include_directories(running_pair PUBLIC ${CMAKE_CURRENT_SOURCE_DIR})
-target_link_libraries(running_pair PUBLIC demonstration)
+target_link_libraries(running_pair PUBLIC demonstration telehug_daemon telehug_pairing)
 target_compile_definitions(running_pair PRIVATE TELEHUG_FIXTURES="${PROJECT_SOURCE_DIR}/tests/fixtures"
   TELEHUG_BIN="${CMAKE_RUNTIME_OUTPUT_DIRECTORY}" TELEHUG_SOURCE="${PROJECT_SOURCE_DIR}")
 telehug_settings(running_pair)
@@ -17,6 +17,8 @@ telehug_test(test_app_recovery KIND integration SUBJECT jacket
   SOURCES integration/app/recovery_test.cpp DEPS running_pair)
 telehug_test(test_app_stop KIND integration SUBJECT ops
   SOURCES integration/app/stop_test.cpp DEPS running_pair)
+telehug_test(test_app_paired KIND integration SUBJECT link
+  SOURCES integration/app/paired_test.cpp DEPS running_pair)
 telehug_test(test_app_nobody_to_touch KIND integration SUBJECT ops
   SOURCES integration/app/nobody_to_touch_test.cpp DEPS running_pair telehug_pictures)
 telehug_test(test_app_bad_input KIND integration SUBJECT ops

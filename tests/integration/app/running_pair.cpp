@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <thread>
 
+#include "daemon/membership.hpp"
 #include "service/control_socket.hpp"
 
 namespace telehug {
@@ -66,6 +67,21 @@ void RunningPair::calibrate(const std::string& source) const {
   if (outcome.code != 0) throw std::runtime_error("the calibration failed: " + outcome.text);
 }
 
+PairStore RunningPair::pairs(Side side) const {
+  return {folder / ("pairs-" + side_name(side)), side};
+}
+
+void RunningPair::pair_up() const {
+  const WallTime now = wall_time();
+  PairStore parent = pairs(Side::active);
+  const auto request = parent.request("Grandma");
+  if (!request) throw std::runtime_error(request.error().message);
+  const auto granted = pairs(Side::passive).grant(*request, "Mia", now);
+  if (!granted) throw std::runtime_error(granted.error().message);
+  if (const auto accepted = parent.accept(granted->grant, now); !accepted)
+    throw std::runtime_error(accepted.error().message);
+}
+
 std::filesystem::path RunningPair::socket(Side side) const {
   return folder / (side_name(side) + ".sock");
 }
@@ -73,6 +89,7 @@ std::filesystem::path RunningPair::socket(Side side) const {
 std::vector<std::string> RunningPair::command(Side side, std::vector<std::string> settings) const {
   std::vector<std::string> words{program("telehug-" + side_name(side)), "run", "--config", "/dev/null"};
   settings.insert(settings.end(), {"peer.domain=" + std::to_string(domain_.id()), "peer.loopback_only=true",
+                                   "peer.pairs_folder=" + (folder / ("pairs-" + side_name(side))).string(),
                                    "peer.partition=" + domain_.partition(), "control.socket=" + socket(side).string()});
   for (const std::string& setting : settings)
     words.insert(words.end(), {"--set", setting});

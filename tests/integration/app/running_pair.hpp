@@ -16,6 +16,7 @@
 #include "demo_record.hpp"
 #include "doubles/temporary_folder.hpp"
 #include "doubles/unique_domain.hpp"
+#include "pairing/pairing.hpp"
 #include "service/control_client.hpp"
 
 namespace telehug {
@@ -48,6 +49,10 @@ class RunningPair {
   std::filesystem::path calibration;
   std::string jacket_link;
   std::vector<std::string> active_settings;  // SECTION.KEY=VALUE
+
+  // Pairs the two sides; with it they speak through DDS Security. Of the PC that is `side`.
+  [[nodiscard]] PairStore pairs(Side side) const;
+  void pair_up() const;
 
   void calibrate(const std::string& source) const;
   void start_jacket();
