@@ -19,6 +19,7 @@ Examples:
   telehug resume
   telehug send off                    touches on this screen touch nobody
   telehug face next                   the other person in the picture is meant
+  telehug pair list                   with whom this PC is paired
 
 Exit codes: 0 ok, 1 fault of telehug, 2 wrong command line, 5 no daemon is running, 6 peer absent (--check),
   7 not allowed to use the socket, 8 the daemon does not answer properly, 9 the daemon refused, 11 stopped (--check),
@@ -35,6 +36,7 @@ ExitCode parse_and_run(int argc, char** argv) {
   telehug::add_resume(app, result);
   telehug::add_send(app, result);
   telehug::add_face(app, result);
+  telehug::add_pair(app, result);
   telehug::add_version(app, result);
   try {
     app.parse(argc, argv);

@@ -10,3 +10,8 @@ telehug_test(test_telehug_command KIND integration SUBJECT ops
   SOURCES integration/ctl/telehug_command_test.cpp
   DEPS telehug_service)
 add_dependencies(test_telehug_command telehug)
+
+telehug_test(test_pair_command KIND integration SUBJECT link
+  SOURCES integration/ctl/pair_command_test.cpp
+  DEPS telehug_service)
+add_dependencies(test_pair_command telehug)
