@@ -14,6 +14,7 @@ struct PeerConfig {
   int domain = 77;        // DDS domain
   std::string partition;  // DDS partition: pairs on one network that must not hear each other take different ones
   bool loopback_only = true;
+  std::string addresses;  // read it with parse_addresses(); only if not loopback_only
 };
 
 struct ControlConfig {

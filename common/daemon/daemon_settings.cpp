@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "daemon/daemon_settings.hpp"
 
+#include "config/locator.hpp"
 #include "service/control_socket.hpp"
 
 namespace telehug {
@@ -11,6 +12,7 @@ DdsSettings dds_settings(const PeerConfig& config, Side side) {
   settings.domain_id = static_cast<std::uint32_t>(config.domain);
   if (!config.partition.empty()) settings.partition = config.partition;
   settings.loopback_only = config.loopback_only;
+  if (auto addresses = parse_addresses(config.addresses)) settings.peers = *std::move(addresses);
   return settings;
 }
 
