@@ -47,7 +47,9 @@ class RunningPair {
   std::filesystem::path picture;
   std::filesystem::path calibration;
   std::string jacket_link;
+  bool loopback_only = true;
   std::vector<std::string> active_settings;  // SECTION.KEY=VALUE
+  std::vector<std::string> passive_settings;
 
   void calibrate(const std::string& source) const;
   void start_jacket();
@@ -71,6 +73,7 @@ class RunningPair {
   [[nodiscard]] bool camera_open() const;
   [[nodiscard]] std::string jacket_state() const;
   [[nodiscard]] std::filesystem::path socket(Side side) const;
+  [[nodiscard]] std::uint32_t domain() const noexcept { return domain_.id(); }
 
   [[nodiscard]] std::vector<PinChange> pins() const;
   // Channels whose pins run now.
