@@ -9,3 +9,10 @@ target_link_libraries(netlab PUBLIC telehug_common)
 telehug_settings(netlab)
 
 telehug_test(test_netlab KIND integration SUBJECT link SOURCES integration/netlab/two_homes_test.cpp DEPS netlab)
+
+telehug_test(test_link_faults KIND integration SUBJECT link
+  SOURCES integration/link_faults/link_faults_test.cpp integration/link_faults/faulty_link.cpp
+          integration/link_faults/fault_table.cpp
+  DEPS running_pair netlab)
+# It measures how long real processes take: beside other tests it would measure those.
+set_tests_properties(test_link_faults PROPERTIES RUN_SERIAL TRUE)
