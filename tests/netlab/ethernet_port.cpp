@@ -52,8 +52,8 @@ Bytes EthernetPort::receive() const {
   return {buffer.begin(), buffer.begin() + size};
 }
 
-void EthernetPort::send(const Bytes& frame) const {
-  (void)!::send(descriptor_, frame.data(), frame.size(), 0);
+bool EthernetPort::send(const Bytes& frame) const {
+  return ::send(descriptor_, frame.data(), frame.size(), 0) >= 0;
 }
 
 void write_checksums(const NetNamespace& network, const std::string& interface) {

@@ -20,8 +20,8 @@ class EthernetPort {
   [[nodiscard]] int descriptor() const noexcept { return descriptor_; }
   // The next frame that waits; empty: none does.
   [[nodiscard]] Bytes receive() const;
-  // A frame that the interface can't take is lost, as on a wire.
-  void send(const Bytes& frame) const;
+  // A frame that the interface can't take is lost, as on a wire: false.
+  bool send(const Bytes& frame) const;
 
  private:
   int descriptor_ = -1;

@@ -21,6 +21,8 @@ namespace {
 constexpr std::size_t most_flying = 8192;
 constexpr std::size_t most_recorded = 8192;
 constexpr int most_frames_at_once = 256;
+// How the Ethernet addresses of IPv4 multicast begin (RFC 1112).
+constexpr std::uint8_t ipv4_multicast = 0x01;
 
 void ip(const NetNamespace& network, std::vector<std::string> words) {
   const InsideNamespace inside(network);
@@ -41,8 +43,8 @@ std::string path_of(const NetNamespace& network) {
 
 }  // namespace
 
-TwoHomes::Side::Side(const NetNamespace& middle, const std::string& middle_end, Home home, std::uint32_t seed)
-    : way(seed) {
+TwoHomes::Side::Side(const NetNamespace& middle, const std::string& name, Home home, std::uint32_t seed)
+    : middle_end(name), way(seed) {
   ip(middle, {"link", "add", middle_end, "type", "veth", "peer", "name", "home", "netns", path_of(network)});
   ip(middle, {"link", "set", middle_end, "up"});
   ip(network, {"link", "set", "lo", "up"});
@@ -66,6 +68,19 @@ void TwoHomes::take_address(Home home) {
 
 void TwoHomes::give_address(Home home) {
   ip(network(home), {"address", "add", address(home) + "/24", "dev", "home"});
+}
+
+void TwoHomes::pull_plug(Home home) {
+  ip(middle_, {"link", "set", side(home).middle_end, "down"});
+}
+
+void TwoHomes::put_in_plug(Home home) {
+  ip(middle_, {"link", "set", side(home).middle_end, "up"});
+}
+
+void TwoHomes::stop_multicast() {
+  const std::lock_guard lock(mutex_);
+  multicast_passes_ = false;
 }
 
 void TwoHomes::set(Home from, const WayFaults& faults) {
@@ -99,7 +114,7 @@ void TwoHomes::replay(Home from, const std::vector<CapturedPacket>& packets) con
   const Duration later = SteadyClock{}.now() - packets.front().arrived;
   for (const CapturedPacket& packet : packets) {
     std::this_thread::sleep_until(packet.arrived + later);
-    side(other(from)).port->send(packet.frame);
+    (void)side(other(from)).port->send(packet.frame);
   }
 }
 
@@ -141,6 +156,7 @@ void TwoHomes::take_in(Home from) {
     Bytes frame = side(from).port->receive();
     if (frame.empty()) return;
     const std::lock_guard lock(mutex_);
+    if (!multicast_passes_ && frame[0] == ipv4_multicast) continue;
     for (const Timestamp arrival : side(from).way.arrivals(SteadyClock{}.now())) {
       if (flying_.size() < most_flying) flying_.push({arrival, ++count_, from, frame});
     }
@@ -152,9 +168,10 @@ void TwoHomes::let_arrive(Timestamp now) {
   while (!flying_.empty() && flying_.top().arrival <= now) {
     const Flying& next = flying_.top();
     Side& sender = side(next.from);
-    side(other(next.from)).port->send(next.frame);
-    if (udp_content(next.frame)) sender.last_arrival = now;
-    if (sender.recording && sender.recorded.size() < most_recorded) sender.recorded.push_back({now, next.frame});
+    const bool arrived = side(other(next.from)).port->send(next.frame);
+    if (arrived && udp_content(next.frame)) sender.last_arrival = now;
+    if (arrived && sender.recording && sender.recorded.size() < most_recorded)
+      sender.recorded.push_back({now, next.frame});
     flying_.pop();
   }
 }

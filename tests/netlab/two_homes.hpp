@@ -37,6 +37,11 @@ class TwoHomes {
   [[nodiscard]] static std::string address(Home home) { return home == Home::parent ? "10.77.0.1" : "10.77.0.2"; }
   void take_address(Home home);
   void give_address(Home home);
+  // The interface without and with a carrier, as when its plug is pulled and put in.
+  void pull_plug(Home home);
+  void put_in_plug(Home home);
+  // As in a VPN: what goes to more than one receiver does not pass, but for the search for neighbours.
+  void stop_multicast();
 
   // For the packets that come from that home, from now on.
   void set(Home from, const WayFaults& faults);
@@ -55,11 +60,12 @@ class TwoHomes {
 
  private:
   struct Side {
-    Side(const NetNamespace& middle, const std::string& middle_end, Home home, std::uint32_t seed);
+    Side(const NetNamespace& middle, const std::string& name, Home home, std::uint32_t seed);
 
     NetNamespace network;
     std::optional<EthernetPort> port;  // in the middle
-    FaultyWay way;                     // of what comes from here
+    std::string middle_end;
+    FaultyWay way;  // of what comes from here
     std::optional<Timestamp> last_arrival;
     bool recording = false;
     std::vector<CapturedPacket> recorded;
@@ -84,6 +90,7 @@ class TwoHomes {
   NetNamespace middle_;
   std::array<std::optional<Side>, 2> sides_;
   mutable std::mutex mutex_;  // for the ways, the recordings and what flies
+  bool multicast_passes_ = true;
   std::priority_queue<Flying> flying_;
   std::uint64_t count_ = 0;
   std::jthread carrier_;

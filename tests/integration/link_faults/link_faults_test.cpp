@@ -7,13 +7,13 @@
 #include <signal.h>
 #include <stdlib.h>
 
-#include <algorithm>
 #include <memory>
-#include <random>
 #include <system_error>
 #include <thread>
 
 #include "integration/link_faults/faulty_link.hpp"
+#include "netlab/packet_mangler.hpp"
+#include "service/control_socket.hpp"
 
 namespace telehug {
 namespace {
@@ -82,6 +82,14 @@ class LinkFaults : public testing::Test {
     expect_silence_and_return(link->interrupt(
         fault, since, lasts, [=] { kill(program, SIGSTOP); }, [=] { kill(program, SIGCONT); }));
   }
+  // 1500 datagrams to each port of the jacket's side's DDS.
+  static void pour(const std::function<Bytes()>& next) {
+    for (int i = 0; i < 1500; ++i) {
+      for (const int above : {0, 10, 11})
+        link->homes.send_datagram(Home::parent, port(above), next());
+      std::this_thread::sleep_for(1ms);
+    }
+  }
   static std::uint16_t port(int above_the_first) {
     return static_cast<std::uint16_t>(7400 + 250 * link->pair.domain() + static_cast<unsigned>(above_the_first));
   }
@@ -103,8 +111,33 @@ class LongLinkFaults : public LinkFaults {
   }
 };
 
+// What is not asked of the product: only told.
+class ToldOnly : public LongLinkFaults {
+ protected:
+  static void tell(FaultRow row) {
+    if (!row.back_after_s) row.remark = "not felt again";
+    for (const Side side : {Side::active, Side::passive}) {
+      const auto status = link->pair.status(side);
+      if (!status.is_object()) {
+        row.remark += "; " + side_name(side) + " ended";
+        continue;
+      }
+      for (const auto& problem : status.at("problems"))
+        row.remark += "; " + side_name(side) + ": " + problem.at("what").get<std::string>();
+    }
+    rows.push_back(std::move(row));
+    link->start_active();  // as it must be for whatever comes next
+  }
+};
+
 TEST_F(LinkFaults, APulledCableIsFollowedBySilenceAndReturn) {
   cut("cable pulled for 10 s", Since::last_arrival, 10s, {.loss = 1}, {.loss = 1});
+}
+
+TEST_F(LinkFaults, APulledPlugIsFollowedBySilenceAndReturn) {
+  expect_silence_and_return(link->interrupt(
+      "plug of the jacket's side pulled for 3 s", Since::last_arrival, 3s, [] { link->homes.pull_plug(Home::child); },
+      [] { link->homes.put_in_plug(Home::child); }));
 }
 
 TEST_F(LinkFaults, ALostWayToTheJacketIsFollowedBySilenceAndReturn) {
@@ -171,6 +204,20 @@ TEST_F(LinkFaults, WhatARecordingSaysIsNotFelt) {
   expect_silence_and_return(row);
 }
 
+TEST_F(LinkFaults, WhatARecordingSaysIsNotFeltByAJacketsSideThatIsNew) {
+  const FaultRow row = link->interrupt(
+      "both started anew, all ever said replayed to the new one", Since::last_arrival, 1s,
+      [] {
+        link->pair.active->kill_now();
+        ASSERT_TRUE(eventually([] { return !link->pair.felt(); }));
+        link->start_passive();
+        ASSERT_TRUE(eventually([] { return link->pair.jacket_state() == "armed"; }));
+        link->homes.replay(Home::parent, link->first_words());
+      },
+      [] { link->start_active(); });
+  expect_silence_and_return(row);
+}
+
 TEST_F(LinkFaults, ARecordingBesideTheLivingSenderDisturbsNothing) {
   expect_return(link->disturb(
       "all that was ever said replayed beside it", [] { link->homes.replay(Home::parent, link->first_words()); },
@@ -178,41 +225,24 @@ TEST_F(LinkFaults, ARecordingBesideTheLivingSenderDisturbsNothing) {
 }
 
 TEST_F(LinkFaults, GarbageAndTruncatedPacketsAreSurvived) {
-  std::vector<Bytes> truths;
-  for (const CapturedPacket& packet : link->first_words())
-    if (const auto content = udp_content(packet.frame); content && content->port > port(0) && content->port < port(250))
-      truths.push_back(content->payload);
-  ASSERT_FALSE(truths.empty());
-  std::mt19937 random(20261129);
-  const auto below = [&](std::size_t end) { return std::uniform_int_distribution<std::size_t>(0, end - 1)(random); };
-  const auto pour = [&](const std::function<Bytes()>& next) {
-    for (int i = 0; i < 1500; ++i) {
-      for (const int above : {0, 10, 11})
-        link->homes.send_datagram(Home::parent, port(above), next());
-      std::this_thread::sleep_for(1ms);
-    }
-  };
+  PacketMangler mangler(link->first_words(), port(0));
   expect_return(link->disturb(
-      "random bytes to every port of DDS",
-      [&] {
-        pour([&] {
-          Bytes bytes(1 + below(1200));
-          std::generate(bytes.begin(), bytes.end(), [&] { return static_cast<std::uint8_t>(below(256)); });
-          return bytes;
-        });
-      },
-      [] {}));
+      "random bytes to every port of DDS", [&] { pour([&] { return mangler.random_bytes(); }); }, [] {}));
   expect_return(link->disturb(
-      "truncated RTPS to every port of DDS",
-      [&] {
-        pour([&] {
-          Bytes bytes = truths[below(truths.size())];
-          bytes.resize(1 + below(bytes.size()));
-          return bytes;
-        });
-      },
-      [] {}));
+      "truncated RTPS to every port of DDS", [&] { pour([&] { return mangler.truncated(); }); }, [] {}));
   EXPECT_TRUE(link->pair.passive->runs()) << link->pair.logs();
+}
+
+TEST(WithoutMulticast, TheOtherSideIsFoundByItsAddress) {
+  std::unique_ptr<FaultyLink> link;
+  try {
+    link = std::make_unique<FaultyLink>();
+  } catch (const std::system_error& error) {
+    GTEST_SKIP() << "network namespaces are not permitted here: " << error.what();
+  }
+  link->homes.stop_multicast();
+  link->pair.active_settings = {"peer.addresses=" + TwoHomes::address(Home::child)};
+  EXPECT_TRUE(link->start_all()) << link->pair.logs();
 }
 
 TEST_F(LongLinkFaults, ACablePulledForAMinute) {
@@ -225,6 +255,29 @@ TEST_F(LongLinkFaults, ASenderStoppedForLong) {
 
 TEST_F(LongLinkFaults, AJacketsSideStoppedForLong) {
   stop_for("SIGSTOP of telehug-passive for 12 s", Since::cause, link->pair.passive->pid(), 12s);
+}
+
+TEST_F(ToldOnly, RtpsWithBitsTurnedOver) {
+  PacketMangler mangler(link->first_words(), port(0));
+  tell(link->disturb(
+      "RTPS with bits turned over", [&] { pour([&] { return mangler.turned_over(); }); }, [] {}));
+}
+
+TEST_F(ToldOnly, ANetworkThatComesAfterTheDaemon) {
+  tell(link->interrupt(
+      "telehug-active started 2 s before its address", Since::last_arrival, 2s,
+      [] {
+        link->pair.active->kill_now();
+        link->homes.take_address(Home::parent);
+        link->start_active();
+      },
+      [] { link->homes.give_address(Home::parent); }));
+}
+
+TEST_F(ToldOnly, AnAddressThatIsTakenAndGivenBack) {
+  tell(link->interrupt(
+      "address of the sender's side gone for 3 s", Since::last_arrival, 3s,
+      [] { link->homes.take_address(Home::parent); }, [] { link->homes.give_address(Home::parent); }));
 }
 
 }  // namespace

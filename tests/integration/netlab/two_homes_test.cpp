@@ -73,6 +73,20 @@ TEST_F(TwoHomesTest, LetsNothingThroughWhileTheWayIsCut) {
   EXPECT_EQ(listener->hear(), 2);
 }
 
+TEST_F(TwoHomesTest, LetsNothingThroughWhileAPlugIsPulled) {
+  homes->pull_plug(Home::child);
+  say(1);
+  EXPECT_EQ(listener->hear(100ms), std::nullopt);
+  homes->put_in_plug(Home::child);
+  // The kernel tells the carrier's return when it finds time.
+  std::optional<int> heard;
+  for (int i = 0; i < 50 && !heard; ++i) {
+    say(2);
+    heard = listener->hear(100ms);
+  }
+  EXPECT_TRUE(heard);
+}
+
 TEST_F(TwoHomesTest, LosesAsManyAsItIsTold) {
   homes->set(Home::parent, {.loss = 0.2});
   for (std::uint8_t i = 0; i < 250; ++i)
