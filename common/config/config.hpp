@@ -16,6 +16,7 @@ struct PeerConfig {
   bool loopback_only = false;
   std::string pair;          // id of the pair; empty: the only one
   std::string pairs_folder;  // see pairs_folder()
+  std::string addresses;     // read it with parse_addresses(); only if not loopback_only
 };
 
 struct ControlConfig {

@@ -69,6 +69,8 @@ Rows peer_rows(PeerConfig& c) {
        "",
        {},
        "Where the pairs of this PC are kept; empty: in the state folder of the service or user."},
+      {"peer", "addresses", &c.addresses, "", parsed_by(parse_addresses),
+       "IPv4 addresses of the other side, with commas between them, where it is not found by itself."},
   };
 }
 
@@ -88,6 +90,13 @@ std::string place_of(const std::vector<Key>& keys, std::initializer_list<std::st
     if (key != keys.end() && !key->origin.empty()) return key->origin;
   }
   return "defaults";
+}
+
+std::vector<Fault> impossible_peers(const PeerConfig& c, const std::vector<Key>& keys) {
+  if (!c.loopback_only || c.addresses.empty()) return {};
+  return {{place_of(keys, {"peer.addresses", "peer.loopback_only"}),
+           "peer.addresses are of the network, which peer.loopback_only = true forbids: set it to false, or leave the "
+           "addresses out"}};
 }
 
 }  // namespace
@@ -237,7 +246,7 @@ std::vector<Key> keys_of(PassiveConfig& c) {
 }
 
 std::vector<Fault> impossible_combinations(const ActiveConfig& c, const std::vector<Key>& keys) {
-  std::vector<Fault> faults;
+  std::vector<Fault> faults = impossible_peers(c.peer, keys);
   if ((c.rig.screen.width_mm > 0) != (c.rig.screen.height_mm > 0)) {
     faults.push_back({place_of(keys, {"rig.screen_width_mm", "rig.screen_height_mm"}),
                       "rig.screen_width_mm and rig.screen_height_mm must both be given, or both be 0"});
@@ -265,11 +274,14 @@ std::vector<Fault> impossible_combinations(const ActiveConfig& c, const std::vec
 std::vector<Fault> impossible_combinations(const PassiveConfig& c, const std::vector<Key>& keys) {
   // Speeds that termios knows and the jacket's clock can make.
   constexpr int speeds[] = {9600, 19200, 38400, 57600, 115200, 230400, 500000, 1000000};
-  if (std::find(std::begin(speeds), std::end(speeds), c.jacket.baud) != std::end(speeds)) return {};
-  return {{place_of(keys, {"jacket.baud"}),
-           fmt::format("jacket.baud is {}; serial lines know 9600, 19200, 38400, 57600, 115200, 230400, 500000 and "
-                       "1000000",
-                       c.jacket.baud)}};
+  std::vector<Fault> faults = impossible_peers(c.peer, keys);
+  if (std::find(std::begin(speeds), std::end(speeds), c.jacket.baud) == std::end(speeds)) {
+    faults.push_back({place_of(keys, {"jacket.baud"}),
+                      fmt::format("jacket.baud is {}; serial lines know 9600, 19200, 38400, 57600, 115200, 230400, "
+                                  "500000 and 1000000",
+                                  c.jacket.baud)});
+  }
+  return faults;
 }
 
 }  // namespace telehug

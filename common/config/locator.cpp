@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "config/locator.hpp"
 
+#include <arpa/inet.h>
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <optional>
@@ -64,6 +66,24 @@ Result<std::optional<ScreenRegion>> parse_screen_region(std::string_view text) {
   }
   if (at != end) return wrong;
   return std::optional(ScreenRegion{numbers[0], numbers[1], numbers[2], numbers[3]});
+}
+
+Result<std::vector<std::string>> parse_addresses(std::string_view text) {
+  std::vector<std::string> addresses;
+  if (text.empty()) return addresses;
+  for (std::size_t from = 0; from <= text.size();) {
+    const std::size_t comma = std::min(text.find(',', from), text.size());
+    std::string address(text.substr(from, comma - from));
+    address.erase(0, address.find_first_not_of(' '));
+    address.erase(address.find_last_not_of(' ') + 1);
+    in_addr parsed{};
+    if (inet_pton(AF_INET, address.c_str(), &parsed) != 1) {
+      return Error{fmt::format("\"{}\" is not an IPv4 address; several have commas between them", address)};
+    }
+    addresses.push_back(std::move(address));
+    from = comma + 1;
+  }
+  return addresses;
 }
 
 Result<JacketLinkChoice> parse_jacket_link(std::string_view text) {

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The values of the configuration that name a thing and, after a colon, where it is; and a rectangle.
+// The values of the configuration that name a thing and, after a colon, where it is; a rectangle; and addresses.
 #pragma once
 
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "common/result.hpp"
 
@@ -41,6 +42,9 @@ struct ScreenRegion {
 
 // "X,Y,WIDTH,HEIGHT" in px; empty: none.
 [[nodiscard]] Result<std::optional<ScreenRegion>> parse_screen_region(std::string_view text);
+
+// IPv4 addresses with commas between them; empty: none.
+[[nodiscard]] Result<std::vector<std::string>> parse_addresses(std::string_view text);
 
 enum class JacketLinkKind { serial, simulated, recorded };
 

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 
+#include "config/locator.hpp"
 #include "config/places.hpp"
 
 namespace telehug {
@@ -62,6 +63,7 @@ Result<Membership> membership(const PeerConfig& config, Side side, WallTime now)
   member.dds.security = member.pair->files;
   member.dds.partition = member.pair->partition;
   member.dds.loopback_only = config.loopback_only;
+  if (auto addresses = parse_addresses(config.addresses)) member.dds.peers = *std::move(addresses);
   return member;
 }
 

@@ -200,7 +200,13 @@ Result<Pair> PairStore::accept(const std::string& grant, WallTime now) {
               validity_of(certificate.get()).until,
               phrase(identity_ca.get(), permissions_ca.get(), key.get(), X509_get0_pubkey(wearers.get())),
               files_in(folder_ / id)};
-    keep(pair, *granted, key_pem);
+    // The one certificate of each authority that the phrase is made from, and no other that stood behind it in the
+    // text: Fast DDS would trust every one of a file.
+    Json texts = *granted;
+    texts["identity_ca"] = pem_of(identity_ca.get());
+    texts["permissions_ca"] = pem_of(permissions_ca.get());
+    texts["certificate"] = pem_of(certificate.get());
+    keep(pair, texts, key_pem);
     OPENSSL_cleanse(key_pem.data(), key_pem.size());
     // What the library will look at is looked at now, when it can still be said.
     if (const auto faults = preflight(pair, now); !faults.empty()) {

@@ -48,6 +48,8 @@ class Inspection {
           pair_again);
       return certificate;
     }
+    if (pem != pem_of(certificate.get()))
+      add(file, "it holds more than one certificate, and each would be trusted.", pair_again);
     const Validity validity = validity_of(certificate.get());
     if (now_ < validity.from) {
       add(file, fmt::format("it is not valid before {}.", date(validity.from)), "check this PC's clock: `date`");

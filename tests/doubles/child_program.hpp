@@ -54,6 +54,14 @@ class ChildProgram {
     pid_ = 0;
   }
 
+  // Waits until it ends by itself: its exit code, or -1.
+  int wait_for_end() {
+    int state = 0;
+    const bool ended = pid_ != 0 && ::waitpid(pid_, &state, 0) == pid_;
+    pid_ = 0;
+    return ended && WIFEXITED(state) ? WEXITSTATUS(state) : -1;
+  }
+
   // Waits for the next line that it prints; what came until its end if there is no further one.
   std::string read_line() const {
     std::string line;

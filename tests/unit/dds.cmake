@@ -22,4 +22,4 @@ telehug_test(test_peer_link KIND unit SUBJECT link
 
 telehug_test(test_pairing KIND unit SUBJECT link
   SOURCES unit/pairing/pair_store_test.cpp
-  DEPS telehug_pairing)
+  DEPS telehug_pairing nlohmann_json::nlohmann_json)

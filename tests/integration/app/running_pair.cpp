@@ -88,7 +88,8 @@ std::filesystem::path RunningPair::socket(Side side) const {
 
 std::vector<std::string> RunningPair::command(Side side, std::vector<std::string> settings) const {
   std::vector<std::string> words{program("telehug-" + side_name(side)), "run", "--config", "/dev/null"};
-  settings.insert(settings.end(), {"peer.domain=" + std::to_string(domain_.id()), "peer.loopback_only=true",
+  settings.insert(settings.end(), {"peer.domain=" + std::to_string(domain_.id()),
+                                   std::string("peer.loopback_only=") + (loopback_only ? "true" : "false"),
                                    "peer.pairs_folder=" + (folder / ("pairs-" + side_name(side))).string(),
                                    "peer.partition=" + domain_.partition(), "control.socket=" + socket(side).string()});
   for (const std::string& setting : settings)
@@ -97,8 +98,10 @@ std::vector<std::string> RunningPair::command(Side side, std::vector<std::string
 }
 
 std::vector<std::string> RunningPair::passive_command() const {
-  return command(Side::passive, {"jacket.link=" + jacket_link,
-                                 "jacket.profile=" TELEHUG_SOURCE "/deploy/jackets/duemilanove-16.toml"});
+  std::vector<std::string> settings{"jacket.link=" + jacket_link,
+                                    "jacket.profile=" TELEHUG_SOURCE "/deploy/jackets/duemilanove-16.toml"};
+  settings.insert(settings.end(), passive_settings.begin(), passive_settings.end());
+  return command(Side::passive, std::move(settings));
 }
 
 std::vector<std::string> RunningPair::active_command() const {

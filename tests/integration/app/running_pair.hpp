@@ -48,7 +48,9 @@ class RunningPair {
   std::filesystem::path picture;
   std::filesystem::path calibration;
   std::string jacket_link;
+  bool loopback_only = true;
   std::vector<std::string> active_settings;  // SECTION.KEY=VALUE
+  std::vector<std::string> passive_settings;
 
   // Pairs the two sides; with it they speak through DDS Security. Of the PC that is `side`.
   [[nodiscard]] PairStore pairs(Side side) const;
@@ -76,6 +78,7 @@ class RunningPair {
   [[nodiscard]] bool camera_open() const;
   [[nodiscard]] std::string jacket_state() const;
   [[nodiscard]] std::filesystem::path socket(Side side) const;
+  [[nodiscard]] std::uint32_t domain() const noexcept { return domain_.id(); }
 
   [[nodiscard]] std::vector<PinChange> pins() const;
   // Channels whose pins run now.

@@ -85,6 +85,18 @@ TEST_F(ConfigFaults, IncludeAPartitionThatMatchesOtherPairs) {
   EXPECT_THAT(active_faults("[peer]\npartition = \"*\"\n"), HasSubstr("c.toml:2: peer.partition: a partition has"));
 }
 
+TEST_F(ConfigFaults, IncludeAPeersAddressThatIsNone) {
+  EXPECT_THAT(active_faults("[peer]\nloopback_only = false\naddresses = \"192.0.2.7,\"\n"),
+              HasSubstr("c.toml:3: peer.addresses: \"\" is not an IPv4 address"));
+  EXPECT_THAT(active_faults("[peer]\nloopback_only = false\naddresses = \"grandma\"\n"),
+              HasSubstr("c.toml:3: peer.addresses: \"grandma\" is not an IPv4 address"));
+}
+
+TEST_F(ConfigFaults, IncludeAPeersAddressWhileOnlyLoopbackIsAllowed) {
+  EXPECT_THAT(active_faults("[peer]\nloopback_only = true\naddresses = \"192.0.2.7\"\n"),
+              HasSubstr("c.toml:3: peer.addresses are of the network"));
+}
+
 // What the configuration lets pass must not be refused later by DDS or by the safety stage.
 TEST_F(ConfigFaults, IncludeWhatTheDaemonsWouldRefuse) {
   EXPECT_THAT(active_faults("[peer]\ndomain = 101\n"), HasSubstr("c.toml:2: peer.domain is 101"));

@@ -51,5 +51,13 @@ TEST(JacketLinkChoice, IsASerialLineTheSimulationOrAFile) {
     EXPECT_FALSE(parse_jacket_link(wrong));
 }
 
+TEST(Addresses, HaveCommasBetweenThem) {
+  EXPECT_TRUE(parse_addresses("")->empty());
+  EXPECT_EQ(*parse_addresses("192.0.2.7"), std::vector<std::string>{"192.0.2.7"});
+  EXPECT_EQ(*parse_addresses("192.0.2.7, 198.51.100.1"), (std::vector<std::string>{"192.0.2.7", "198.51.100.1"}));
+  for (const char* wrong : {",", "192.0.2.7,", " ", "192.0.2", "192.0.2.7:7400", "192.0.2.7 198.51.100.1", "::1"})
+    EXPECT_FALSE(parse_addresses(wrong)) << wrong;
+}
+
 }  // namespace
 }  // namespace telehug

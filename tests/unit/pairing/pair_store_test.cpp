@@ -7,6 +7,7 @@
 #include <iterator>
 
 #include "doubles/temporary_folder.hpp"
+#include "pairing/armour.hpp"
 #include "pairing/pairing.hpp"
 
 namespace telehug {
@@ -138,6 +139,21 @@ TEST_F(Pairs, RefuseAGrantThatAnswersAnotherRequest) {
   (void)parent.request("Grandma").value();
   EXPECT_THAT(parent.accept(granted.grant, now).error().message, HasSubstr("another request"));
   EXPECT_TRUE(parent.list().empty());
+}
+
+// Somebody on the way adds an authority of their own behind the wearer's: the phrase is the same, since it is made from
+// the first one.
+TEST_F(Pairs, TrustNoAuthorityThatStandsBehindTheWearersInTheGrant) {
+  PairStore false_parent(folder / "false-parent", Side::active);
+  PairStore false_wearer(folder / "false-wearer", Side::passive);
+  const std::string false_authority = content(pair_up(false_parent, false_wearer).wearer.files.identity_ca);
+  auto grant = unarmour("grant", wearer.grant(parent.request("Grandma").value(), "Mia", now)->grant).value();
+  const std::string authority = grant["identity_ca"];
+  grant["identity_ca"] = authority + false_authority;
+  const Pair pair = parent.accept(armour("grant", grant), now).value();
+  EXPECT_EQ(content(pair.files.identity_ca), authority);
+  overwrite(pair.files.identity_ca, authority + false_authority);
+  EXPECT_THAT(only_fault(parent, pair).what, HasSubstr("more than one certificate"));
 }
 
 TEST_F(Pairs, AreAcceptedOnce) {

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "integration/app/running_pair.hpp"
+#include "integration/link_faults/fault_table.hpp"
+#include "netlab/two_homes.hpp"
+
+namespace telehug {
+
+// Both daemons as a pair in two homes, with a finger that rests on the child's picture for ever, so that whenever
+// everything works a motor runs.
+class FaultyLink {
+ public:
+  FaultyLink();
+
+  TwoHomes homes;
+  RunningPair pair;
+
+  void start_active();
+  void start_passive();
+  // Everything from nothing. False if the finger is not felt.
+  bool start_all();
+  // Waits until a motor runs and has run without a gap for a while. After a break motors may run, lose the sender's
+  // heartbeat once more and run again.
+  [[nodiscard]] bool settled() const;
+
+  // From what the time until silence counts.
+  enum class Since { last_arrival, cause };
+  // Breaks something for so long, mends it, and waits until the finger is felt again.
+  FaultRow interrupt(const std::string& fault, Since since, Duration lasts, const std::function<void()>& break_it,
+                     const std::function<void()>& mend_it);
+  // Something bad that goes on for as long as `endure` takes, in which touches should be felt.
+  FaultRow disturb(const std::string& fault, const std::function<void()>& endure, const std::function<void()>& mend_it);
+
+  // What the parent's home said from the start of its daemon until the finger was felt.
+  [[nodiscard]] const std::vector<CapturedPacket>& first_words() const noexcept { return first_words_; }
+
+ private:
+  [[nodiscard]] FeltTimes felt_times() const { return FeltTimes(pair.pins()); }
+  void note_return(FaultRow& row, Timestamp mended) const;
+
+  std::vector<CapturedPacket> first_words_;
+};
+
+}  // namespace telehug

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "netlab/captured_packet.hpp"
+
+#include <net/ethernet.h>
+#include <netinet/in.h>
+
+#include <cstddef>
+
+namespace telehug {
+namespace {
+
+std::uint16_t big_endian(const Bytes& bytes, std::size_t at) {
+  return static_cast<std::uint16_t>(bytes[at] << 8U | bytes[at + 1]);
+}
+
+}  // namespace
+
+std::optional<UdpContent> udp_content(const Bytes& frame) {
+  constexpr std::size_t ethernet = ETH_HLEN;
+  constexpr std::size_t least_ip = 20;
+  constexpr std::size_t udp = 8;
+  if (frame.size() < ethernet + least_ip || big_endian(frame, 12) != ETHERTYPE_IP) return std::nullopt;
+  const bool fragment = (big_endian(frame, ethernet + 6) & 0x3fffU) != 0;
+  if (fragment || frame[ethernet + 9] != IPPROTO_UDP) return std::nullopt;
+  const std::size_t start = ethernet + 4U * (frame[ethernet] & 0x0fU);
+  if (frame.size() < start + udp) return std::nullopt;
+  const std::size_t length = big_endian(frame, start + 4);
+  if (length < udp || frame.size() < start + length) return std::nullopt;
+  const auto first = frame.begin() + static_cast<std::ptrdiff_t>(start + udp);
+  return UdpContent{big_endian(frame, start + 2), Bytes(first, first + static_cast<std::ptrdiff_t>(length - udp))};
+}
+
+}  // namespace telehug

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "common/clock.hpp"
+
+namespace telehug {
+
+using Bytes = std::vector<std::uint8_t>;
+
+// A frame as it was on the wire.
+struct CapturedPacket {
+  Timestamp arrived;
+  Bytes frame;
+};
+
+struct UdpContent {
+  std::uint16_t port = 0;  // where it goes
+  Bytes payload;
+};
+
+// Nothing if the Ethernet frame holds no whole UDP datagram over IPv4.
+[[nodiscard]] std::optional<UdpContent> udp_content(const Bytes& frame);
+
+}  // namespace telehug
