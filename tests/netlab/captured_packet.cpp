@@ -22,7 +22,7 @@ std::optional<UdpContent> udp_content(const Bytes& frame) {
   if (frame.size() < ethernet + least_ip || big_endian(frame, 12) != ETHERTYPE_IP) return std::nullopt;
   const bool fragment = (big_endian(frame, ethernet + 6) & 0x3fffU) != 0;
   if (fragment || frame[ethernet + 9] != IPPROTO_UDP) return std::nullopt;
-  const std::size_t start = ethernet + 4U * (frame[ethernet] & 0x0fU);
+  const std::size_t start = ethernet + std::size_t{4} * (frame[ethernet] & 0x0fU);
   if (frame.size() < start + udp) return std::nullopt;
   const std::size_t length = big_endian(frame, start + 4);
   if (length < udp || frame.size() < start + length) return std::nullopt;

@@ -115,7 +115,14 @@ class LongLinkFaults : public LinkFaults {
 class ToldOnly : public LongLinkFaults {
  protected:
   static void tell(FaultRow row) {
-    if (!row.back_after_s) row.remark = "not felt again";
+    if (!row.back_after_s) add_reasons(row);
+    rows.push_back(std::move(row));
+    link->start_active();  // as it must be for whatever comes next
+  }
+
+ private:
+  static void add_reasons(FaultRow& row) {
+    row.remark = "not felt again";
     for (const Side side : {Side::active, Side::passive}) {
       const auto status = link->pair.status(side);
       if (!status.is_object()) {
@@ -125,8 +132,6 @@ class ToldOnly : public LongLinkFaults {
       for (const auto& problem : status.at("problems"))
         row.remark += "; " + side_name(side) + ": " + problem.at("what").get<std::string>();
     }
-    rows.push_back(std::move(row));
-    link->start_active();  // as it must be for whatever comes next
   }
 };
 
