@@ -15,3 +15,7 @@ telehug_test(test_dds_killed_peer KIND integration SUBJECT link
 telehug_test(test_stop_switch KIND integration SUBJECT link
   SOURCES integration/daemon/stop_switch_test.cpp
   DEPS telehug_daemon telehug_peer)
+
+telehug_test(test_address_watcher KIND integration SUBJECT link
+  SOURCES integration/network/address_watcher_test.cpp
+  DEPS telehug_network)
