@@ -19,3 +19,7 @@ telehug_test(test_stop_switch KIND integration SUBJECT link
 telehug_test(test_address_watcher KIND integration SUBJECT link
   SOURCES integration/network/address_watcher_test.cpp
   DEPS telehug_network)
+
+telehug_test(test_replaced_participant KIND integration SUBJECT link
+  SOURCES integration/dds/replaced_participant_test.cpp
+  DEPS telehug_peer_link)
