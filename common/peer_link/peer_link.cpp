@@ -23,27 +23,58 @@ bool write_with_reason(Writer<T>& writer, T message) {
 
 }  // namespace
 
+PeerLink::Endpoints::Endpoints(DdsParticipant& participant, PeerLink& owner)
+    : heartbeat_writer(participant),
+      status_writer(participant),
+      stop_writer(participant),
+      heartbeat_reader(participant,
+                       [&owner](const Heartbeat& heartbeat) {
+                         owner.heartbeat_slot_.put({heartbeat, owner.clock_.now()});
+                       }),
+      status_reader(participant, [&owner](const SideStatus& status) { owner.status_slot_.put(status); }),
+      stop_reader(participant, [&owner](const StopAll& stop) { owner.stop_latch_.heard(stop); }) {}
+
+std::uint64_t PeerLink::Endpoints::dropped() const noexcept {
+  std::uint64_t dropped = 0;
+  for (const ReaderCounters& counters :
+       {heartbeat_reader.counters(), status_reader.counters(), stop_reader.counters()}) {
+    dropped += counters.malformed + counters.invalid;
+  }
+  return dropped;
+}
+
 PeerLink::PeerLink(DdsParticipant& participant, Side side, const SessionId& session, Duration heartbeat_timeout,
                    const Clock& clock)
-    : side_(side),
-      session_(session),
-      exchange_(session, side),
-      monitor_(heartbeat_timeout),
-      heartbeat_writer_(participant),
-      status_writer_(participant),
-      stop_writer_(participant),
-      heartbeat_reader_(participant,
-                        [this, &clock](const Heartbeat& heartbeat) {
-                          heartbeat_slot_.put({heartbeat, clock.now()});
-                        }),
-      status_reader_(participant, [this](const SideStatus& status) { status_slot_.put(status); }),
-      stop_reader_(participant, [this](const StopAll& stop) { stop_latch_.heard(stop); }) {}
+    : side_(side), session_(session), clock_(clock), exchange_(session, side), monitor_(heartbeat_timeout) {
+  connect(participant);
+}
+
+void PeerLink::disconnect() {
+  const std::scoped_lock locks(counting_, sending_);
+  if (!endpoints_) return;
+  dropped_before_ += endpoints_->dropped();
+  endpoints_.reset();  // from here on no callback runs
+}
+
+void PeerLink::connect(DdsParticipant& participant) {
+  disconnect();
+  {
+    const std::scoped_lock locks(counting_, sending_);
+    endpoints_.emplace(participant, *this);
+  }
+  told_.reset();
+  stop_to_tell_again_ = stop_told_.has_value();
+  tell_stop_again();
+}
 
 std::optional<HeardHeartbeat> PeerLink::serve(Timestamp now) {
   auto heard = heartbeat_slot_.take();
   if (heard && !monitor_.heard(heard->heartbeat, heard->time)) heard.reset();
   if (heard) exchange_.heard(heard->heartbeat, heard->time);
-  if (now >= exchange_.next_due()) heartbeat_writer_.write(exchange_.beat(now));
+  if (now >= exchange_.next_due()) {
+    const std::unique_lock lock(sending_, std::try_to_lock);
+    if (lock.owns_lock() && endpoints_) endpoints_->heartbeat_writer.write(exchange_.beat(now));
+  }
   return heard;
 }
 
@@ -53,21 +84,30 @@ PeerState PeerLink::state(Timestamp now) {
 }
 
 void PeerLink::tell(const SideStatus& status) {
-  if (told_ && same(*told_, status)) return;
-  if (write_with_reason(status_writer_, status)) told_ = status;
+  tell_stop_again();
+  if (!endpoints_ || (told_ && same(*told_, status))) return;
+  if (write_with_reason(endpoints_->status_writer, status)) told_ = status;
 }
 
 bool PeerLink::tell_stop(bool stop, const std::string& reason) {
-  return write_with_reason(stop_writer_, {session_, side_, ++stops_told_, stop, reason});
+  if (!endpoints_) return false;
+  const std::uint64_t told_before = stop_told_ ? stop_told_->sequence : 0;
+  const StopAll word{session_, side_, told_before + 1, stop, reason};
+  if (!write_with_reason(endpoints_->stop_writer, word)) return false;
+  stop_told_ = word;
+  stop_to_tell_again_ = false;
+  return true;
 }
 
-std::uint64_t PeerLink::dropped() const noexcept {
-  std::uint64_t dropped = 0;
-  for (const ReaderCounters& counters :
-       {heartbeat_reader_.counters(), status_reader_.counters(), stop_reader_.counters()}) {
-    dropped += counters.malformed + counters.invalid;
-  }
-  return dropped;
+void PeerLink::tell_stop_again() {
+  if (!endpoints_ || !stop_to_tell_again_) return;
+  // The same word, of the same number: whoever had heard it hears nothing new.
+  stop_to_tell_again_ = !write_with_reason(endpoints_->stop_writer, *stop_told_);
+}
+
+std::uint64_t PeerLink::dropped() const {
+  const std::lock_guard lock(counting_);
+  return dropped_before_ + (endpoints_ ? endpoints_->dropped() : 0);
 }
 
 }  // namespace telehug

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
+#include <mutex>
 #include <optional>
 #include <string>
 
@@ -35,13 +37,14 @@ struct HeardHeartbeat {
 // says that the pipeline runs.
 class PeerLink {
  public:
-  // Throws as Reader and Writer do. `participant` and `clock` outlive it.
+  // Connects. Throws as Reader and Writer do. `clock` outlives it; `participant` until disconnect().
   PeerLink(DdsParticipant& participant, Side side, const SessionId& session, Duration heartbeat_timeout,
            const Clock& clock);
 
   // --- pipeline's thread ---
 
-  // Takes in what came and sends what is due. The peer's newest heartbeat, if a fresh one was among it.
+  // Takes in what came and sends what is due; while the participant is being replaced nothing goes out, and nobody
+  // waits for it. The peer's newest heartbeat, if a fresh one was among it.
   std::optional<HeardHeartbeat> serve(Timestamp now);
 
   [[nodiscard]] bool alive(Timestamp now) noexcept { return monitor_.alive(now); }
@@ -49,6 +52,11 @@ class PeerLink {
   [[nodiscard]] PeerState state(Timestamp now);
 
   // --- housekeeping thread ---
+
+  // The participant can be replaced while all else goes on: disconnect, delete the old one, make another, connect. What
+  // is known of the peer, its stop, and the counting of heartbeats survive; status and stop are told again.
+  void disconnect();
+  void connect(DdsParticipant& participant);  // throws as Reader and Writer do, and is disconnected then
 
   // Tells the peer if it differs from what was told last. What the wire refuses of a reason (line breaks, bytes that
   // are no UTF-8) is replaced.
@@ -61,25 +69,42 @@ class PeerLink {
 
   // Has the peer turned everything off, and not on again (StopLatch)?
   [[nodiscard]] bool stopped_by_peer() const noexcept { return stop_latch_.stopped(); }
-  [[nodiscard]] std::uint64_t dropped() const noexcept;  // messages that were malformed or out of range
+  [[nodiscard]] std::uint64_t dropped() const;  // messages that were malformed or out of range
 
  private:
+  struct Endpoints {
+    Endpoints(DdsParticipant& participant, PeerLink& owner);
+
+    Writer<Heartbeat> heartbeat_writer;
+    Writer<SideStatus> status_writer;
+    Writer<StopAll> stop_writer;
+    Reader<Heartbeat> heartbeat_reader;  // last: they call back as soon as they are there
+    Reader<SideStatus> status_reader;
+    Reader<StopAll> stop_reader;
+
+    [[nodiscard]] std::uint64_t dropped() const noexcept;
+  };
+
+  void tell_stop_again();
+
   Side side_;
   SessionId session_;
+  const Clock& clock_;
   HeartbeatExchange exchange_;
   PeerMonitor monitor_;
   LatestSlot<HeardHeartbeat> heartbeat_slot_;
   LatestSlot<SideStatus> status_slot_;
   StopLatch stop_latch_;
   std::optional<SideStatus> told_;
-  std::uint64_t stops_told_ = 0;
+  std::optional<StopAll> stop_told_;
+  bool stop_to_tell_again_ = false;
 
-  Writer<Heartbeat> heartbeat_writer_;
-  Writer<SideStatus> status_writer_;
-  Writer<StopAll> stop_writer_;
-  Reader<Heartbeat> heartbeat_reader_;  // last: they call back as soon as they are there
-  Reader<SideStatus> status_reader_;
-  Reader<StopAll> stop_reader_;
+  // Only housekeeping changes the endpoints, and holds both meanwhile. The pipeline only tries the first, which nobody
+  // else takes: a look at the counters must not cost a heartbeat.
+  std::mutex sending_;
+  mutable std::mutex counting_;
+  std::uint64_t dropped_before_ = 0;  // by endpoints that are gone
+  std::optional<Endpoints> endpoints_;
 };
 
 }  // namespace telehug

@@ -24,3 +24,11 @@ telehug_test(test_dds_secured KIND integration SUBJECT link
 add_test(NAME test_firewall_rules
   COMMAND unshare --map-root-user --net nft -c -f ${PROJECT_SOURCE_DIR}/deploy/firewall/telehug.nft)
 set_tests_properties(test_firewall_rules PROPERTIES LABELS "integration;link")
+
+telehug_test(test_address_watcher KIND integration SUBJECT link
+  SOURCES integration/network/address_watcher_test.cpp
+  DEPS telehug_network)
+
+telehug_test(test_replaced_participant KIND integration SUBJECT link
+  SOURCES integration/dds/replaced_participant_test.cpp
+  DEPS telehug_peer_link)

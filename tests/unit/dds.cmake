@@ -3,6 +3,14 @@ telehug_test(test_peer KIND unit SUBJECT link
   SOURCES unit/peer/heartbeat_test.cpp unit/peer/session_test.cpp
   DEPS telehug_peer)
 
+telehug_test(test_link_supervisor KIND unit SUBJECT link
+  SOURCES unit/peer/link_supervisor_test.cpp
+  DEPS telehug_peer)
+
+telehug_test(test_suspend_detector KIND unit SUBJECT link
+  SOURCES unit/network/suspend_detector_test.cpp
+  DEPS telehug_network)
+
 telehug_test(test_publish KIND unit SUBJECT link
   SOURCES unit/publish/touch_event_builder_test.cpp doubles/allocation_counter.cpp
   DEPS active_publish)
