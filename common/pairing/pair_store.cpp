@@ -123,12 +123,13 @@ Result<PairStore::Granted> PairStore::grant(const std::string& request, const st
     return Error{fmt::format("this PC has {} pairs already: revoke one (`telehug pair list`)", max_pairs)};
   try {
     make_secret_folder(folder_);
-    const Authorities authorities = load_or_make_authorities(folder_ / "authority", now);
-    const Authority& identity = authorities.identity;
-    const Authority& permitting = authorities.permissions;
     const std::string id = random_hex(8);
     const std::string partition = partition_of(id);
     const Validity validity{now - clocks_differ, now + pair_lives};
+    // They outlive what they sign, so that the certificate is what expires.
+    const Validity authorities{validity.from, validity.until + clocks_differ};
+    const Authority identity = make_authority_of(id, "identities", authorities);
+    const Authority permitting = make_authority_of(id, "permissions", authorities);
     const KeyHandle own_key = make_key();
     const auto certify = [&](EVP_PKEY* key, const char* whose) {
       return issue(key, fmt::format("{}-{}", whose, id), identity.certificate.get(), identity.key.get(), validity);

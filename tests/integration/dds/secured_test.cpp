@@ -105,6 +105,21 @@ TEST_F(Secured, PairDoesNotHearAnotherPairOfTheSameWearer) {
   expect_unheard(settings(fathers));
 }
 
+// A client that has its own checks taken out: Fast DDS would let it into any partition if the authorities were the
+// same.
+TEST_F(Secured, PairDoesNotHearAnotherPairOfTheSameWearerInItsPartition) {
+  const Pair own = wearers_pair;
+  Pair fathers = pair_up("father", "wearer");
+  wearers_pair = own;
+  DdsSettings posing = settings(fathers);
+  posing.security->permissions_ca = parents_pair.files.permissions_ca;
+  posing.security->permissions = parents_pair.files.permissions;
+  posing.security->governance = parents_pair.files.governance;
+  posing.partition = own.partition;
+  // Neither the father's identity with the mother's permissions comes up, nor is it heard.
+  EXPECT_THROW(DdsParticipant participant(posing), DdsError);
+}
+
 TEST_F(Secured, SideMayNotWriteWhereItIsNotPermitted) {
   // The parent's files in the wearer's place: felt is not the parent's to write.
   DdsSettings posing = settings(parents_pair);

@@ -74,14 +74,15 @@ TEST_F(Pairs, AreFaultlessAndListedAfterwards) {
   EXPECT_EQ(listed[0].expires, here.expires);
 }
 
-TEST_F(Pairs, OfOneWearerHaveIdsPartitionsAndPhrasesOfTheirOwn) {
+TEST_F(Pairs, OfOneWearerHaveIdsPartitionsAuthoritiesAndPhrasesOfTheirOwn) {
   PairStore father(folder / "father", Side::active);
   const auto first = pair_up(parent, wearer).wearer;
   const auto second = pair_up(father, wearer).wearer;
   EXPECT_NE(first.id, second.id);
   EXPECT_NE(first.partition, second.partition);
   EXPECT_NE(first.phrase, second.phrase);
-  EXPECT_EQ(content(first.files.identity_ca), content(second.files.identity_ca));
+  EXPECT_NE(content(first.files.identity_ca), content(second.files.identity_ca));
+  EXPECT_NE(content(first.files.permissions_ca), content(second.files.permissions_ca));
 }
 
 // Somebody in between asks the wearer's PC with a key of their own, and answers the parent's PC from a wearer's PC of
@@ -190,9 +191,12 @@ TEST_F(Pairs, ThatAreRevokedLeaveNothingBehindAndCantBeUsedAgain) {
 
 TEST_F(Pairs, AreRevokedByTheirIdAndNothingElse) {
   pair_up(parent, wearer);
-  EXPECT_FALSE(wearer.revoke("authority"));
+  fs::create_directory(folder / "wearer" / "else");
+  EXPECT_FALSE(wearer.revoke("else"));
   EXPECT_FALSE(wearer.revoke(".."));
-  EXPECT_TRUE(fs::exists(folder / "wearer" / "authority"));
+  EXPECT_FALSE(wearer.revoke("0123456789abcdef"));
+  EXPECT_TRUE(fs::exists(folder / "wearer" / "else"));
+  EXPECT_EQ(wearer.list().size(), 1U);
 }
 
 TEST_F(Pairs, ThatHaveExpiredOrAreNotYetValidAreNamed) {
@@ -248,7 +252,7 @@ TEST_F(Pairs, WithFilesOfAnotherPairAreNamed) {
     return only_fault(parent, mixed);
   };
   EXPECT_THAT(exchanged(&DdsSecurityFiles::private_key).what, HasSubstr("not the certificate's key"));
-  EXPECT_THAT(exchanged(&DdsSecurityFiles::permissions).what, HasSubstr("does not permit"));
+  EXPECT_THAT(exchanged(&DdsSecurityFiles::permissions).what, HasSubstr("not signed by the pair's authority"));
   Pair wrong_place = mothers;
   wrong_place.partition = fathers.partition;
   EXPECT_EQ(only_fault(parent, wrong_place).file, mothers.files.permissions);
