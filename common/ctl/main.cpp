@@ -19,7 +19,7 @@ Examples:
   telehug resume
   telehug send off                    touches on this screen touch nobody
   telehug face next                   the other person in the picture is meant
-  telehug pair list                   with whom this PC is paired
+  telehug pair invite                 make a pair of this PC and another one
 
 Exit codes: 0 ok, 1 fault of telehug, 2 wrong command line, 5 no daemon is running, 6 peer absent (--check),
   7 not allowed to use the socket, 8 the daemon does not answer properly, 9 the daemon refused, 11 stopped (--check),
@@ -27,7 +27,8 @@ Exit codes: 0 ok, 1 fault of telehug, 2 wrong command line, 5 no daemon is runni
 
 ExitCode parse_and_run(int argc, char** argv) {
   ExitCode result = ExitCode::ok;
-  CLI::App app("Looks after the telehug daemons on this PC, through their local sockets; needs no network.", "telehug");
+  CLI::App app("Looks after the telehug daemons on this PC, through their local sockets, and pairs it with another PC.",
+               "telehug");
   app.footer(examples);
   app.require_subcommand(1);
   telehug::add_status(app, result);

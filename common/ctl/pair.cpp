@@ -1,172 +1,116 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <fmt/chrono.h>
-#include <fmt/core.h>
+#include <unistd.h>
 
 #include <CLI/CLI.hpp>
-#include <fstream>
-#include <functional>
-#include <iostream>
-#include <iterator>
+#include <array>
+#include <cstdio>
 #include <memory>
-#include <nlohmann/json.hpp>
 
 #include "config/places.hpp"
 #include "ctl/command.hpp"
-#include "ctl/plain_text.hpp"
-#include "pairing/pairing.hpp"
+#include "ctl/pair_side.hpp"
+#include "ctl/pairing_steps.hpp"
 
 namespace telehug {
+
 namespace {
 
-constexpr const char* about_pairing = R"(
-Two PCs become a pair by two texts, each copied through any chat window or carried on a USB stick:
-  parent's PC:   telehug pair request --name Grandma          and send what it prints to the wearer
-  wearer's PC:   telehug pair grant --name Mia < request.txt  and send what it prints back
-  parent's PC:   telehug pair finish < grant.txt
-Both PCs then show the same eight words. Read them to each other: if they differ, somebody sits in between; revoke.
-As the user that the daemons run as; start the daemons again afterwards.)";
+constexpr const char* examples = R"(
+Examples:
+  telehug pair invite --name "Mum"            prints a code; tell it to the other person
+  telehug pair accept CODE --name "Kim"       on the other PC; both print a phrase to compare
+  telehug pair list
+  telehug pair revoke 0123456789abcdef        on each PC
 
-struct Options {
-  std::string name;
-  std::string file;
-  std::string id;
-  std::string folder;
-  bool json = false;
+Where the PCs can't reach each other directly, by chat or USB stick:
+  telehug pair request > request.txt          on the parent's PC
+  telehug pair grant < request.txt > grant.txt    on the wearer's PC
+  telehug pair finish < grant.txt             on the parent's PC
+
+Exit codes: 0 ok, 2 wrong command line or code, 9 the pairing failed, 13 can't listen at the address.)";
+
+struct Given {
+  PairingWish wish;
+  std::string side;
 };
 
-WallTime now() {
-  return std::chrono::floor<std::chrono::seconds>(std::chrono::system_clock::now());
+std::string name_of_this_pc() {
+  std::array<char, 65> name{};
+  return ::gethostname(name.data(), name.size() - 1) == 0 ? name.data() : "telehug";
 }
 
-ExitCode fail(ExitCode code, const std::string& message) {
-  fmt::print(stderr, "telehug: {}\n", message);
-  return code;
-}
+class PairCommands {
+ public:
+  PairCommands(CLI::App& pair, ExitCode& result) : pair_(pair), result_(result) {}
 
-PairStore store(const Options& options, Side side) {
-  PeerConfig config;
-  config.pairs_folder = options.folder;
-  return {pairs_folder(config, side), side};
-}
-
-// A little more than any telehug text has: what is longer is refused where it is read.
-Result<std::string> text_from(const std::string& file) {
-  constexpr std::size_t longest = 128 * 1024;
-  std::ifstream opened;
-  if (!file.empty()) {
-    opened.open(file, std::ios::binary);
-    if (!opened) return Error{fmt::format("{} can't be read", file)};
+  // of: whose PC the command is for anyway, if it is one's only.
+  CLI::App* add(const char* name, const char* about, ExitCode (*step)(const PairingWish&), const std::string& of = "") {
+    CLI::App* command = pair_.add_subcommand(name, about);
+    command
+        ->add_option("--side", given_->side, "What this PC is: active (parent's), passive (wearer's); default: found")
+        ->check(CLI::IsMember({"active", "passive"}));
+    command->add_option("--folder", given_->wish.folder, "Where the pairs are kept (default: telehug's state folder)");
+    command->callback([given = given_, step, of, &result = result_] {
+      const auto side = side_of_this_pc(given->side.empty() ? of : given->side);
+      if (!side) {
+        (void)std::fprintf(stderr, "telehug: %s\n", side.error().message.c_str());
+        result = ExitCode::usage;
+        return;
+      }
+      PairingWish wish = given->wish;
+      wish.side = *side;
+      if (wish.folder.empty()) wish.folder = pairs_folder({}, *side);
+      if (wish.name.empty()) wish.name = name_of_this_pc();
+      result = step(wish);
+    });
+    return command;
   }
-  std::istream& in = file.empty() ? std::cin : opened;
-  std::string text(longest, '\0');
-  in.read(text.data(), static_cast<std::streamsize>(longest));
-  text.resize(static_cast<std::size_t>(in.gcount()));
-  return text;
-}
-
-std::string date(WallTime time) {
-  return fmt::format("{:%Y-%m-%d}", fmt::gmtime(std::chrono::system_clock::to_time_t(time)));
-}
-
-// On the error stream: the output of `grant` is a text to be sent.
-void tell_phrase(const Pair& pair) {
-  fmt::print(stderr,
-             "Paired with {} until {} (pair {}).\n"
-             "Compare these words with the other side, by voice: {}\n"
-             "If theirs differ, somebody sits between the two PCs: `telehug pair revoke {}`\n",
-             plain_text(pair.name), date(pair.expires), pair.id, pair.phrase, pair.id);
-}
-
-ExitCode request(const Options& options) {
-  const auto text = store(options, Side::active).request(options.name);
-  if (!text) return fail(ExitCode::refused, text.error().message);
-  fmt::print("{}", *text);
-  return ExitCode::ok;
-}
-
-ExitCode grant(const Options& options) {
-  const auto asked = text_from(options.file);
-  if (!asked) return fail(ExitCode::usage, asked.error().message);
-  const auto granted = store(options, Side::passive).grant(*asked, options.name, now());
-  if (!granted) return fail(ExitCode::refused, granted.error().message);
-  fmt::print("{}", granted->grant);
-  tell_phrase(granted->pair);
-  return ExitCode::ok;
-}
-
-ExitCode finish(const Options& options) {
-  const auto text = text_from(options.file);
-  if (!text) return fail(ExitCode::usage, text.error().message);
-  const auto pair = store(options, Side::active).accept(*text, now());
-  if (!pair) return fail(ExitCode::refused, pair.error().message);
-  tell_phrase(*pair);
-  return ExitCode::ok;
-}
-
-// What this PC touches, and who touches here.
-ExitCode list(const Options& options) {
-  nlohmann::json all = nlohmann::json::array();
-  std::string text;
-  for (const Side side : {Side::active, Side::passive}) {
-    const PairStore pairs = store(options, side);
-    for (const Pair& pair : pairs.list()) {
-      const auto faults = pairs.preflight(pair, now());
-      all.push_back({{"id", pair.id},
-                     {"name", pair.name},
-                     {"side", side == Side::active ? "active" : "passive"},
-                     {"phrase", pair.phrase},
-                     {"expires", date(pair.expires)},
-                     {"usable", faults.empty()}});
-      text += fmt::format("{}  {} {}, until {}: {}\n", pair.id, side == Side::active ? "touches" : "is touched by",
-                          plain_text(pair.name), date(pair.expires), pair.phrase);
-      for (const PairingFault& fault : faults)
-        text += fmt::format("  {}: {}\n  -> {}\n", fault.file.string(), fault.what, fault.to_do);
-    }
+  void name(CLI::App* command) {
+    command->add_option("--name", given_->wish.name, "How the other person sees you (default: this PC's name)");
   }
-  if (options.json) {
-    fmt::print("{}\n", all.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
-  } else {
-    fmt::print("{}", text.empty() ? "no pair yet: `telehug pair --help` says how to make one\n" : text);
+  void json(CLI::App* command) { command->add_flag("--json", given_->wish.json, "For programs"); }
+  void file(CLI::App* command, const char* about) { command->add_option("--file", given_->wish.file, about); }
+  void word(CLI::App* command, const char* name, const char* about) {
+    command->add_option(name, given_->wish.word, about)->required();
   }
-  return ExitCode::ok;
-}
+  void address(CLI::App* command) {
+    command->add_option("--address", given_->wish.address,
+                        "This PC's IPv4 address as the other reaches it (default: of the default route)");
+    command->add_option("--port", given_->wish.port, "TCP port to wait at (default 0: any free one)");
+  }
 
-ExitCode revoke(const Options& options) {
-  const bool revoked =
-      store(options, Side::active).revoke(options.id) || store(options, Side::passive).revoke(options.id);
-  if (!revoked) return fail(ExitCode::refused, fmt::format("there is no pair {}; see `telehug pair list`", options.id));
-  fmt::print("The pair {} is gone from this PC; a daemon that was using it ends.\n", options.id);
-  return ExitCode::ok;
-}
+ private:
+  CLI::App& pair_;
+  ExitCode& result_;
+  std::shared_ptr<Given> given_ = std::make_shared<Given>();
+};
 
 }  // namespace
 
 void add_pair(CLI::App& app, ExitCode& result) {
-  auto options = std::make_shared<Options>();
-  CLI::App* pair = app.add_subcommand("pair", "Make, list and revoke pairs of two PCs");
-  pair->footer(about_pairing);
+  CLI::App* pair = app.add_subcommand("pair", "Make a parent's PC and a wearer's PC known to each other");
   pair->require_subcommand(1);
-  const auto add = [&](const char* name, const char* help, ExitCode (*command)(const Options&)) {
-    CLI::App* added = pair->add_subcommand(name, help);
-    added->add_option("--folder", options->folder, "Where the pairs are kept (as peer.pairs_folder)")->type_name("DIR");
-    added->callback([options, command, &result] { result = command(*options); });
-    return added;
-  };
-  const auto text_option = [&](CLI::App* command) {
-    command->add_option("--file", options->file, "Read the text from there instead of the input")->type_name("FILE");
-  };
-  const auto name_option = [&](CLI::App* command, const char* help) {
-    command->add_option("--name", options->name, help)->required()->type_name("NAME");
-  };
-  name_option(add("request", "Parent's PC: ask to touch; prints the text for the wearer", request),
-              "Your name, as the wearer sees it");
-  CLI::App* granting = add("grant", "Wearer's PC: allow who asked to touch; prints the answer", grant);
-  name_option(granting, "The wearer's name, as the parent sees it");
-  text_option(granting);
-  text_option(add("finish", "Parent's PC: take the wearer's answer", finish));
-  add("list", "Who touches, and is touched, from this PC", list)
-      ->add_flag("--json", options->json, "For programs: an array");
-  add("revoke", "End a pair, at once", revoke)->add_option("ID", options->id, "The pair, by its id")->required();
+  pair->footer(examples);
+  PairCommands commands(*pair, result);
+
+  CLI::App* invite = commands.add("invite", "Print a code and wait for the other PC", pair_invite);
+  CLI::App* accept = commands.add("accept", "Dial the PC that printed the code", pair_accept);
+  CLI::App* list = commands.add("list", "The pairs of this PC", pair_list);
+  CLI::App* revoke = commands.add("revoke", "Forget a pair; its secrets are overwritten", pair_revoke);
+  CLI::App* request =
+      commands.add("request", "Parent's PC: print a request for the wearer's PC", pair_request, "active");
+  CLI::App* grant = commands.add("grant", "Wearer's PC: read a request, print the grant", pair_grant, "passive");
+  CLI::App* finish = commands.add("finish", "Parent's PC: read the grant", pair_finish, "active");
+  commands.address(invite);
+  commands.word(accept, "code", "As the other PC printed it; dashes and case don't matter");
+  commands.word(revoke, "id", "As list shows it");
+  for (CLI::App* command : {invite, accept, request, grant})
+    commands.name(command);
+  for (CLI::App* command : {invite, accept, list, grant, finish})
+    commands.json(command);
+  commands.file(request, "Where to write the request (default: stdout)");
+  commands.file(grant, "Where to read the request (default: stdin)");
+  commands.file(finish, "Where to read the grant (default: stdin)");
 }
 
 }  // namespace telehug

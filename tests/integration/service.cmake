@@ -13,5 +13,5 @@ add_dependencies(test_telehug_command telehug)
 
 telehug_test(test_pair_command KIND integration SUBJECT link
   SOURCES integration/ctl/pair_command_test.cpp
-  DEPS telehug_service)
+  DEPS nlohmann_json::nlohmann_json)
 add_dependencies(test_pair_command telehug)

@@ -1,102 +1,95 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Two PCs are paired by the commands that people type; what one prints is what the other reads.
-#include <gmock/gmock.h>
+// `telehug pair` as two PCs use it: two stores, real programs, loopback.
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 
 #include <cstdlib>
-#include <fstream>
-#include <iterator>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
+#include "doubles/child_program.hpp"
 #include "doubles/temporary_folder.hpp"
-#include "service/exit_code.hpp"
 
 namespace telehug {
 namespace {
 
-using testing::HasSubstr;
 using Json = nlohmann::json;
 
 class PairCommand : public testing::Test {
  protected:
-  // On one of the two PCs, whose state folder is a folder of its own. What it prints goes to `out` in the common
-  // folder.
-  int run(const std::string& pc, const std::string& arguments, const std::string& out) {
-    const std::string line = "env -u STATE_DIRECTORY XDG_STATE_HOME=" + (folder / pc).string() +
-                             " " TELEHUG_BIN "/telehug pair " + arguments + " >" + (folder / out).string() + " 2>" +
-                             (folder / "errors").string();
+  [[nodiscard]] std::string on(const std::string& side) const {
+    return " --side " + side + " --folder " + (folder_ / side).string();
+  }
+
+  int run(const std::string& arguments, const std::string& in = "/dev/null", const std::string& out = "out.txt") const {
+    const std::string line = std::string(TELEHUG_BIN "/telehug pair ") + arguments + " <" + in + " >" +
+                             (folder_ / out).string() + " 2>" + (folder_ / "errors.txt").string();
     const int status = std::system(line.c_str());
     return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
   }
-
-  std::string content(const std::string& name) {
-    std::ifstream in(folder / name, std::ios::binary);
-    return {std::istreambuf_iterator<char>(in), {}};
+  [[nodiscard]] std::string content(const std::string& name) const {
+    std::ostringstream text;
+    text << std::ifstream(folder_ / name).rdbuf();
+    return text.str();
+  }
+  Json pairs(const std::string& side) const {
+    EXPECT_EQ(run("list --json" + on(side)), 0);
+    return Json::parse(content("out.txt"))["pairs"];
+  }
+  void expect_one_pair_on_both() const {
+    const Json parents = pairs("active");
+    const Json wearers = pairs("passive");
+    ASSERT_EQ(parents.size(), 1U);
+    ASSERT_EQ(wearers.size(), 1U);
+    EXPECT_EQ(parents[0]["id"], wearers[0]["id"]);
+    EXPECT_EQ(parents[0]["phrase"], wearers[0]["phrase"]);
+    EXPECT_EQ(parents[0]["name"], "Kim");
+    EXPECT_EQ(wearers[0]["name"], "Mum");
+  }
+  [[nodiscard]] ChildProgram invite() const {
+    return ChildProgram({TELEHUG_BIN "/telehug", "pair", "invite", "--json", "--side", "passive", "--folder",
+                         (folder_ / "passive").string(), "--address", "127.0.0.1", "--name", "Kim"});
   }
 
-  Json listed(const std::string& pc) {
-    EXPECT_EQ(run(pc, "list --json", "list"), 0);
-    return Json::parse(content("list"));
-  }
-
-  void pair_up() {
-    ASSERT_EQ(run("parent", "request --name Grandma", "request"), 0) << content("errors");
-    ASSERT_EQ(run("wearer", "grant --name Mia --file " + (folder / "request").string(), "grant"), 0)
-        << content("errors");
-    ASSERT_EQ(run("parent", "finish <" + (folder / "grant").string(), "finish"), 0) << content("errors");
-  }
-
-  TemporaryFolder folder;
+  TemporaryFolder folder_;
 };
 
-TEST_F(PairCommand, MakesAPairByTwoTexts) {
-  pair_up();
-  const Json parent = listed("parent").at(0);
-  const Json wearer = listed("wearer").at(0);
-  EXPECT_EQ(parent["phrase"], wearer["phrase"]);
-  EXPECT_EQ(parent["id"], wearer["id"]);
-  EXPECT_EQ(parent["name"], "Mia");
-  EXPECT_EQ(wearer["name"], "Grandma");
-  EXPECT_EQ(parent["side"], "active");
-  EXPECT_EQ(wearer["side"], "passive");
-  EXPECT_TRUE(parent["usable"] && wearer["usable"]);
-  EXPECT_THAT(content("errors"), testing::IsEmpty());
+TEST_F(PairCommand, InvitesAcceptsListsAndRevokes) {
+  const ChildProgram inviter = invite();
+  const std::string code = Json::parse(inviter.read_line())["code"];
+  ASSERT_EQ(run("accept " + code + " --name Mum --json" + on("active")), 0) << content("errors.txt");
+  const Json accepted = Json::parse(content("out.txt"));
+  EXPECT_EQ(Json::parse(inviter.read_line())["pair"]["phrase"], accepted["pair"]["phrase"]);
+  expect_one_pair_on_both();
+
+  const std::string id = accepted["pair"]["id"];
+  for (const std::string side : {"active", "passive"}) {
+    EXPECT_EQ(run("revoke " + id + on(side)), 0);
+    EXPECT_TRUE(pairs(side).empty());
+    EXPECT_EQ(run("revoke " + id + on(side)), 9);
+  }
 }
 
-TEST_F(PairCommand, RevokesOnThisPcAlone) {
-  pair_up();
-  const std::string id = listed("wearer").at(0)["id"];
-  EXPECT_EQ(run("wearer", "revoke " + id, "out"), 0);
-  EXPECT_TRUE(listed("wearer").empty());
-  EXPECT_EQ(listed("parent").size(), 1U);
-  EXPECT_EQ(run("wearer", "revoke " + id, "out"), to_int(ExitCode::refused));
+TEST_F(PairCommand, PairsWithoutAConnection) {
+  ASSERT_EQ(run("request --name Mum" + on("active"), "/dev/null", "request.txt"), 0) << content("errors.txt");
+  ASSERT_EQ(run("grant --name Kim" + on("passive"), folder_ / "request.txt", "grant.txt"), 0) << content("errors.txt");
+  ASSERT_EQ(run("finish --file " + (folder_ / "grant.txt").string() + on("active")), 0) << content("errors.txt");
+  expect_one_pair_on_both();
 }
 
-TEST_F(PairCommand, SaysWhatIsWrongWithAText) {
-  std::ofstream(folder / "request") << "Hello!";
-  EXPECT_EQ(run("wearer", "grant --name Mia --file " + (folder / "request").string(), "out"),
-            to_int(ExitCode::refused));
-  EXPECT_THAT(content("errors"), HasSubstr("first line is missing"));
-  EXPECT_EQ(run("wearer", "grant --name Mia --file /does/not/exist", "out"), to_int(ExitCode::usage));
-  EXPECT_THAT(content("errors"), HasSubstr("/does/not/exist can't be read"));
-  EXPECT_EQ(run("wearer", "finish </dev/null", "out"), to_int(ExitCode::refused));
+TEST_F(PairCommand, KeepsNothingWhenBothPcsAreAWearers) {
+  const ChildProgram inviter = invite();
+  const std::string code = Json::parse(inviter.read_line())["code"];
+  EXPECT_EQ(run("accept " + code + " --side passive --folder " + (folder_ / "other").string()), 9);
+  EXPECT_NE(content("errors.txt").find("both PCs are a wearer's"), std::string::npos) << content("errors.txt");
+  EXPECT_EQ(inviter.read_line(), "");
+  EXPECT_TRUE(pairs("passive").empty());
 }
 
-TEST_F(PairCommand, SaysHowToBeginWhenThereIsNoPair) {
-  EXPECT_EQ(run("parent", "list", "out"), 0);
-  EXPECT_THAT(content("out"), HasSubstr("no pair yet"));
-  EXPECT_TRUE(listed("parent").empty());
-}
-
-TEST_F(PairCommand, ListsWhatIsWrongWithAPairAndWhatMendsIt) {
-  pair_up();
-  const std::string id = listed("parent").at(0)["id"];
-  std::filesystem::remove(folder / "parent" / "telehug" / "pairs" / "active" / id / "permissions.p7s");
-  EXPECT_FALSE(listed("parent").at(0)["usable"]);
-  EXPECT_EQ(run("parent", "list", "out"), 0);
-  EXPECT_THAT(content("out"), HasSubstr("permissions.p7s: it is missing"));
+TEST_F(PairCommand, SaysThatACodeIsMistyped) {
+  EXPECT_EQ(run("accept 12345" + on("active")), 2);
+  EXPECT_NE(content("errors.txt").find("pairing code has 40"), std::string::npos) << content("errors.txt");
 }
 
 }  // namespace
