@@ -32,9 +32,9 @@ ActiveDaemon::ActiveDaemon(const ActiveConfig& config, Membership membership, st
       session_(new_session_id()),
       camera_(std::move(camera)),
       camera_name_(camera_->name()),
-      participant_(membership_.dds),
-      touch_writer_(participant_),
-      peer_(participant_, Side::active, session_, std::chrono::milliseconds(config.heartbeat_timeout_ms), clock),
+      link_keeper_(membership_.dds, clock),
+      peer_(link_keeper_.participant(), Side::active, session_, std::chrono::milliseconds(config.heartbeat_timeout_ms),
+            clock),
       events_published_(metrics_.counter("events_published")),
       touches_published_(metrics_.counter("touches_published")),
       publish_failed_(metrics_.counter("events_not_published")),
@@ -47,18 +47,20 @@ ActiveDaemon::ActiveDaemon(const ActiveConfig& config, Membership membership, st
       local_touch_(local_outputs(config.local_touch), clock),
       sending_switch_(config.sending.at_start, config.sending.only_in_front),
       calibration_path_(rig_file(config.rig)),
-      felt_reader_(std::make_unique<Reader<Felt>>(participant_, [this](const Felt& felt) { felt_.push(felt); })),
+      traffic_([this](const Felt& felt) { felt_.push(felt); }),
       control_(std::make_unique<ControlServer>(control_options(config.control, Side::active))) {
   if (config_.overlay.show)
     overlay_.emplace(X11OverlayConfig{.display = {}, .monitor = config_.body_map.monitor}, clock);
   if (!config_.sending.hotkey.empty())
     hotkey_.emplace(X11HotkeyConfig{.display = {}, .keys = config_.sending.hotkey}, clock);
   answer_commands();
+  traffic_.connect(link_keeper_.participant());
 }
 
 ActiveDaemon::~ActiveDaemon() {
   end_thread();
-  felt_reader_.reset();
+  traffic_.disconnect();
+  peer_.disconnect();
   // The queue's own destructor (Boost 1.74) does not destroy what it holds.
   felt_.consume_all([](const Felt&) {});
 }
@@ -80,6 +82,7 @@ ExitCode ActiveDaemon::run(Signals& signals) {
     tell_local_touch();
     serve_desktop();
     tell_peer();
+    keep_link();
   }
   notifier_.stopping();
   end_thread();
@@ -196,7 +199,7 @@ void ActiveDaemon::publish(const TouchEvent* event, std::uint64_t frame_sequence
   local_touch_.put(rig_->pipeline.contacts(), rig_->pipeline.screen(), clock_.now());
   if (event == nullptr) return;
   const Timestamp started = clock_.now();
-  if (!touch_writer_.write(*event)) {
+  if (!traffic_.write(*event)) {
     publish_failed_.add();
     return;
   }
@@ -287,6 +290,24 @@ void ActiveDaemon::tell_peer() {
     own.reason = own.stopped ? stop_.reason() : rig_problem_;
   }
   peer_.tell(own);
+}
+
+void ActiveDaemon::keep_link() {
+  PeerState peer;
+  {
+    const std::lock_guard lock(state_mutex_);
+    peer = state_.peer;
+  }
+  link_keeper_.serve(peer, {.disconnect =
+                                [this] {
+                                  traffic_.disconnect();
+                                  peer_.disconnect();
+                                },
+                            .connect =
+                                [this](DdsParticipant& participant) {
+                                  peer_.connect(participant);
+                                  traffic_.connect(participant);
+                                }});
 }
 
 }  // namespace telehug

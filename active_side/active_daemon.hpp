@@ -15,15 +15,14 @@
 #include "common/latest_slot.hpp"
 #include "common/version.hpp"
 #include "config/config.hpp"
+#include "daemon/link_keeper.hpp"
 #include "daemon/membership.hpp"
 #include "daemon/stop_switch.hpp"
-#include "dds/participant.hpp"
-#include "dds/reader.hpp"
-#include "dds/writer.hpp"
 #include "local_touch/local_touch.hpp"
 #include "overlay/x11_hotkey.hpp"
 #include "overlay/x11_overlay.hpp"
 #include "peer_link/peer_link.hpp"
+#include "peer_link/traffic.hpp"
 #include "rig.hpp"
 #include "sending_switch.hpp"
 #include "service/control_server.hpp"
@@ -99,6 +98,7 @@ class ActiveDaemon {
   void show_touched_box(const FaceState& face, FaceWorker* worker);
   void serve_desktop();
   void tell_peer();
+  void keep_link();
   void answer_commands();
   nlohmann::json order_face(const nlohmann::json& request);
   nlohmann::json status() const;
@@ -116,8 +116,7 @@ class ActiveDaemon {
 
   std::unique_ptr<FrameSource> camera_;
   const std::string camera_name_;
-  DdsParticipant participant_;
-  Writer<TouchEvent> touch_writer_;
+  LinkKeeper link_keeper_;
   PeerLink peer_;
 
   // Touch thread
@@ -176,7 +175,7 @@ class ActiveDaemon {
   SayOnChange say_local_touch_;
   SayOnChange say_desktop_;
 
-  std::unique_ptr<Reader<Felt>> felt_reader_;
+  Traffic<TouchEvent, Felt> traffic_;
   std::unique_ptr<ControlServer> control_;
   std::thread touch_thread_;
 };

@@ -197,8 +197,7 @@ Json ActiveDaemon::status() const {
   counters["touches_outside_grid"] = state.nobody.outside_grid;
   counters["touches_withheld"] = state.withheld;
   counters["peer_losses"] = state.peer.losses;
-  counters["messages_dropped"] =
-      peer_.dropped() + felt_reader_->counters().malformed + felt_reader_->counters().invalid;
+  counters["messages_dropped"] = peer_.dropped() + traffic_.dropped();
 
   const char* open_why = state.camera_open      ? state.peer.alive ? "a peer is connected" : "this PC uses the touches"
                          : state.recording_over ? "the recording is over"
@@ -216,6 +215,7 @@ Json ActiveDaemon::status() const {
                                                : "ok"},
                  {"problems", problems(state, face)},
                  {"peer", peer_json(state.peer, peer_told())},
+                 {"link", link_keeper_.status()},
                  {"camera", {{"name", camera_name_}, {"open", state.camera_open}, {"why", open_why}}},
                  {"screen", {{"name", face.screen}, {"open", face.open}}},
                  {"face",

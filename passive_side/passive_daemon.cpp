@@ -37,23 +37,23 @@ PassiveDaemon::PassiveDaemon(const PassiveConfig& config, Membership membership,
       events_replaced_(metrics_.counter("events_replaced_by_newer")),
       events_unvouched_(metrics_.counter("events_without_heartbeat")),
       total_latency_(metrics_.latency("event_to_link")),
-      participant_(membership_.dds),
-      felt_writer_(participant_),
-      peer_(participant_, Side::passive, session_, std::chrono::milliseconds(config.safety.heartbeat_timeout_ms),
-            clock),
-      touch_reader_(
-          std::make_unique<Reader<TouchEvent>>(participant_,
-                                               [this](const TouchEvent& event) {
-                                                 events_received_.add();
-                                                 const bool replaced = newest_event_.put({event, clock_.now()});
-                                                 if (replaced) events_replaced_.add();
-                                               })),
+      link_keeper_(membership_.dds, clock),
+      peer_(link_keeper_.participant(), Side::passive, session_,
+            std::chrono::milliseconds(config.safety.heartbeat_timeout_ms), clock),
+      traffic_([this](const TouchEvent& event) {
+        events_received_.add();
+        const bool replaced = newest_event_.put({event, clock_.now()});
+        if (replaced) events_replaced_.add();
+      }),
       control_(std::make_unique<ControlServer>(control_options(config.control, Side::passive))) {
   answer_commands();
+  traffic_.connect(link_keeper_.participant());
 }
 
 PassiveDaemon::~PassiveDaemon() {
   end_thread();
+  traffic_.disconnect();
+  peer_.disconnect();
 }
 
 ExitCode PassiveDaemon::run(Signals& signals) {
@@ -70,6 +70,7 @@ ExitCode PassiveDaemon::run(Signals& signals) {
     if (over) break;
     tell_watchers();
     tell_peer();
+    keep_link();
   }
   notifier_.stopping();
   end_thread();
@@ -98,7 +99,7 @@ void PassiveDaemon::drive_loop() {
     if (arrival && !known_sender) events_unvouched_.add();
     if (known_sender) {
       for (const Felt& felt : pipeline_.process(arrival->event, arrival->time)) {
-        felt_writer_.write(felt);
+        traffic_.write(felt);
         own_state_.last_felt = felt;
         felt_.push(felt);
       }
@@ -179,6 +180,19 @@ void PassiveDaemon::tell_peer() {
                : own.ready     ? ""
                                : "no jacket answers: " + now.link.problem;
   peer_.tell(own);
+}
+
+void PassiveDaemon::keep_link() {
+  link_keeper_.serve(state().peer, {.disconnect =
+                                        [this] {
+                                          traffic_.disconnect();
+                                          peer_.disconnect();
+                                        },
+                                    .connect =
+                                        [this](DdsParticipant& participant) {
+                                          peer_.connect(participant);
+                                          traffic_.connect(participant);
+                                        }});
 }
 
 }  // namespace telehug

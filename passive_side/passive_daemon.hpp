@@ -13,14 +13,13 @@
 #include "common/latest_slot.hpp"
 #include "common/version.hpp"
 #include "config/config.hpp"
+#include "daemon/link_keeper.hpp"
 #include "daemon/membership.hpp"
 #include "daemon/stop_switch.hpp"
-#include "dds/participant.hpp"
-#include "dds/reader.hpp"
-#include "dds/writer.hpp"
 #include "jacket/jacket_profile.hpp"
 #include "passive_pipeline.hpp"
 #include "peer_link/peer_link.hpp"
+#include "peer_link/traffic.hpp"
 #include "safety/safety_stage.hpp"
 #include "service/control_server.hpp"
 #include "service/exit_code.hpp"
@@ -75,6 +74,7 @@ class PassiveDaemon {
   // Housekeeping
   void tell_watchers();
   void tell_peer();
+  void keep_link();
   void answer_commands();
   nlohmann::json status() const;
   [[nodiscard]] std::optional<SideStatus> peer_told() const;
@@ -120,10 +120,9 @@ class PassiveDaemon {
   SayOnChange say_jacket_;
   SayOnChange say_peer_;
 
-  DdsParticipant participant_;
-  Writer<Felt> felt_writer_;
+  LinkKeeper link_keeper_;
   PeerLink peer_;
-  std::unique_ptr<Reader<TouchEvent>> touch_reader_;
+  Traffic<Felt, TouchEvent> traffic_;
   std::unique_ptr<ControlServer> control_;
   std::thread drive_thread_;
 };

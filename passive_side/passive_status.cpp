@@ -68,8 +68,7 @@ Json PassiveDaemon::status() const {
   const bool armed = now.link.state == LinkState::armed;
   Json counters = metrics_.counters_json();
   counters["peer_losses"] = now.peer.losses;
-  counters["messages_dropped"] =
-      peer_.dropped() + touch_reader_->counters().malformed + touch_reader_->counters().invalid;
+  counters["messages_dropped"] = peer_.dropped() + traffic_.dropped();
   const SafetyCounters& safety = now.safety;
   counters["safety_accepted"] = safety.drives_accepted;
   counters["safety_refused_unknown_actuator"] = safety.refused_unknown_actuator;
@@ -103,6 +102,7 @@ Json PassiveDaemon::status() const {
                                              : "ok"},
                  {"problems", problems(now)},
                  {"peer", peer_json(now.peer, peer_told())},
+                 {"link", link_keeper_.status()},
                  {"jacket",
                   {{"name", profile_.name},
                    {"device", now.link.device},

@@ -53,6 +53,28 @@ TEST_F(Recovery, AnActiveSideThatIsStartedAgainIsFeltAgain) {
   EXPECT_TRUE(pair.passive->runs());
 }
 
+TEST_F(Recovery, ASideWhosePeerFellSilentSetsUpItsConnectionAnewAndKeepsToTheStop) {
+  ASSERT_TRUE(pair.start_all()) << pair.logs();
+  ASSERT_EQ(pair.telehug("stop", Side::active).code, 0);
+  const auto stopped = [&] { return pair.status(Side::passive).value("state", "") == "stopped"; };
+  ASSERT_TRUE(eventually(stopped)) << pair.logs();
+  EXPECT_EQ(pair.status(Side::passive).at("link"), (Json{{"replaced", 0}, {"last_reason", ""}}));
+
+  pair.active->kill_now();
+  const Json replaced = {{"replaced", 1}, {"last_reason", "the other side fell silent"}};
+  ASSERT_TRUE(eventually([&] { return pair.status(Side::passive).at("link") == replaced; })) << pair.logs();
+  pair.start_active();
+  const auto connected = [&](Side side) {
+    const Json answer = pair.status(side);
+    return answer.is_object() && answer.at("peer").at("connected") == true;
+  };
+  ASSERT_TRUE(eventually([&] { return connected(Side::active) && connected(Side::passive); })) << pair.logs();
+  EXPECT_TRUE(stopped()) << "a new connection lifts no stop" << pair.logs();
+  EXPECT_FALSE(pair.felt());
+  EXPECT_EQ(pair.telehug("resume", Side::active).code, 0);
+  EXPECT_TRUE(eventually([&] { return pair.felt(); })) << pair.logs();
+}
+
 TEST_F(Recovery, APassiveSideThatIsStartedAgainFeelsAgain) {
   ASSERT_TRUE(pair.start_all()) << pair.logs();
   EXPECT_EQ(pair.passive->end(), 0) << pair.logs();

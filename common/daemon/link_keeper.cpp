@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "daemon/link_keeper.hpp"
+
+#include <spdlog/spdlog.h>
+#include <unistd.h>
+
+#include <fstream>
+#include <utility>
+
+namespace telehug {
+namespace {
+
+constexpr Duration memory_interval = 10s;
+
+// Of this program, in bytes; 0 if it is not known.
+std::uint64_t resident_memory() {
+  std::uint64_t pages = 0;
+  std::ifstream statm("/proc/self/statm");
+  statm >> pages >> pages;  // the second number
+  return statm ? pages * static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE)) : 0;
+}
+
+std::optional<AddressWatcher>& watch(std::optional<AddressWatcher>& watcher, bool loopback_only) {
+  if (!loopback_only) watcher.emplace();
+  return watcher;
+}
+
+}  // namespace
+
+LinkKeeper::LinkKeeper(DdsSettings settings, const Clock& clock)
+    : settings_(std::move(settings)),
+      clock_(clock),
+      // Watched before the participant is made, so that no change falls between the two.
+      supervisor_(!watch(addresses_, settings_.loopback_only) || !addresses_->addresses().empty()),
+      participant_(std::in_place, settings_),
+      told_({{"replaced", 0}, {"last_reason", ""}}) {
+  supervisor_.made(LinkCause::first, clock_.now());
+}
+
+void LinkKeeper::serve(const PeerState& peer, const Endpoints& endpoints) {
+  const Timestamp now = clock_.now();
+  if (addresses_) look_at_network(now);
+  look_at_peer(peer, now);
+  look_at_memory(now);
+  if (const auto cause = supervisor_.due(now)) replace(*cause, endpoints);
+}
+
+nlohmann::json LinkKeeper::status() const {
+  const std::lock_guard lock(told_mutex_);
+  return told_;
+}
+
+void LinkKeeper::look_at_network(Timestamp now) {
+  if (addresses_->changed()) supervisor_.addresses_changed(!addresses_->addresses().empty(), now);
+  if (sleep_.resumed(now, time_since_boot())) supervisor_.resumed(now);
+}
+
+void LinkKeeper::look_at_peer(const PeerState& peer, Timestamp now) {
+  if (peer.alive) supervisor_.peer_heard(now);
+  if (peer.session == peer_session_) return;
+  if (peer_session_ != SessionId{}) supervisor_.peer_restarted();
+  peer_session_ = peer.session;
+}
+
+void LinkKeeper::look_at_memory(Timestamp now) {
+  if (now - memory_looked_at_ < memory_interval) return;
+  memory_looked_at_ = now;
+  if (const std::uint64_t bytes = resident_memory(); bytes != 0) supervisor_.memory_used(bytes, now);
+}
+
+void LinkKeeper::replace(LinkCause cause, const Endpoints& endpoints) {
+  // The old one goes first: its ports are the next one's.
+  endpoints.disconnect();
+  participant_.reset();
+  try {
+    endpoints.connect(participant_.emplace(settings_));
+  } catch (const std::exception& problem) {
+    endpoints.disconnect();
+    participant_.reset();
+    supervisor_.creation_failed(clock_.now());
+    spdlog::warn("the connection can't be set up: {}; it is tried again by itself", problem.what());
+    return;
+  }
+  supervisor_.made(cause, clock_.now());
+  spdlog::info("the connection was set up anew: {}", sentence(cause));
+  const std::lock_guard lock(told_mutex_);
+  told_ = {{"replaced", supervisor_.replaced()}, {"last_reason", sentence(cause)}};
+}
+
+}  // namespace telehug
