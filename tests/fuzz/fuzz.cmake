@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 
-# telehug_fuzzer(NAME SUBJECT link|jacket DEPS target... [USES_FASTDDS])
+# telehug_fuzzer(NAME SUBJECT link|jacket|ops DEPS target... [USES_FASTDDS])
 # fuzz/fuzz_NAME.cpp with the inputs in fuzz/corpus/NAME: a test that replays these, and with the preset `fuzz` the
 # libFuzzer program itself.
 function(telehug_fuzzer name)
@@ -28,3 +28,4 @@ if(TELEHUG_FUZZ)
 endif()
 telehug_fuzzer(dds SUBJECT link DEPS telehug_dds telehug_idl USES_FASTDDS)
 telehug_fuzzer(frame SUBJECT jacket DEPS passive_link)
+telehug_fuzzer(config SUBJECT ops DEPS telehug_config)
