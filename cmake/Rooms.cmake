@@ -16,7 +16,10 @@ if(CCACHE)
 endif()
 
 function(telehug_settings target)
-  target_compile_options(${target} PRIVATE ${TELEHUG_WARNINGS})
+  # The warnings are g++'s; the fuzzers are built by clang, which lacks some of them.
+  if(NOT TELEHUG_FUZZ)
+    target_compile_options(${target} PRIVATE ${TELEHUG_WARNINGS})
+  endif()
   if(TELEHUG_SANITIZER)
     # GCC's manual: instrumented code makes these warnings err; the other builds keep them.
     target_compile_options(${target} PRIVATE -Wno-maybe-uninitialized -Wno-stringop-overflow)
