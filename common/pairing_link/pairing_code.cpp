@@ -61,7 +61,7 @@ std::string to_text(const PairingCode& code) {
     if (letter > 0 && letter % group_length == 0) text += '-';
     unsigned value = 0;
     for (std::size_t bit = letter * 5; bit < letter * 5 + 5; ++bit)
-      value = value << 1U | (bytes[bit / 8] >> (7U - bit % 8) & 1U);
+      value = value << 1U | (static_cast<unsigned>(bytes[bit / 8]) >> (7U - bit % 8) & 1U);
     text += alphabet[value];
   }
   return text;
