@@ -57,6 +57,10 @@ void LinkKeeper::look_at_network(Timestamp now) {
 
 void LinkKeeper::look_at_peer(const PeerState& peer, Timestamp now) {
   if (peer.alive) supervisor_.peer_heard(now);
+  if (const std::uint64_t signs = participant_ ? participant_->signs_of_peers() : 0; signs != signs_) {
+    if (signs > signs_) supervisor_.peer_noticed(now);
+    signs_ = signs;
+  }
   if (peer.session == peer_session_) return;
   if (peer_session_ != SessionId{}) supervisor_.peer_restarted();
   peer_session_ = peer.session;
@@ -72,6 +76,7 @@ void LinkKeeper::replace(LinkCause cause, const Endpoints& endpoints) {
   // The old one goes first: its ports are the next one's.
   endpoints.disconnect();
   participant_.reset();
+  signs_ = 0;
   try {
     endpoints.connect(participant_.emplace(settings_));
   } catch (const std::exception& problem) {

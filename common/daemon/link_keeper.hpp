@@ -49,6 +49,7 @@ class LinkKeeper {
   LinkSupervisor supervisor_;
   std::optional<DdsParticipant> participant_;
   SessionId peer_session_{};
+  std::uint64_t signs_ = 0;  // of peers, seen by the present participant
   Timestamp memory_looked_at_;
   mutable std::mutex told_mutex_;
   nlohmann::json told_;  // guarded by told_mutex_

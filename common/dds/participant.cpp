@@ -43,7 +43,7 @@ DdsParticipant::Impl::Impl(const DdsSettings& settings) : side(settings.side) {
   dds::DomainParticipantQos qos = participant_qos(settings);
   qos.wire_protocol().participant_id = number.value();
   deliver_through_the_transport_only();
-  participant = dds::DomainParticipantFactory::get_instance()->create_participant(settings.domain_id, qos, nullptr,
+  participant = dds::DomainParticipantFactory::get_instance()->create_participant(settings.domain_id, qos, &signs,
                                                                                   dds::StatusMask::none());
   if (participant == nullptr) {
     number.use_up();
@@ -76,6 +76,10 @@ dds::Topic* DdsParticipant::Impl::find_or_create(const std::string& name, const 
 
 DdsParticipant::DdsParticipant(const DdsSettings& settings) : impl_(std::make_shared<Impl>(settings)) {}
 DdsParticipant::~DdsParticipant() = default;
+
+std::uint64_t DdsParticipant::signs_of_peers() const noexcept {
+  return impl_->signs.count;
+}
 
 }  // namespace telehug
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <memory>
 
 #include "dds/dds_error.hpp"
@@ -19,6 +20,9 @@ class DdsParticipant {
   ~DdsParticipant();
   DdsParticipant(const DdsParticipant&) = delete;
   DdsParticipant& operator=(const DdsParticipant&) = delete;
+
+  // How often another participant was discovered or proved who it is: grows while a peer is on its way to being heard.
+  [[nodiscard]] std::uint64_t signs_of_peers() const noexcept;
 
   struct Impl;
   [[nodiscard]] const std::shared_ptr<Impl>& impl() const noexcept { return impl_; }

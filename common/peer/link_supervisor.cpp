@@ -64,10 +64,7 @@ std::optional<LinkCause> LinkSupervisor::due(Timestamp now) const noexcept {
   }
   if (retry_at_) return now >= *retry_at_ ? std::optional(LinkCause::creation_failed) : std::nullopt;
   if (!made_at_) return LinkCause::first;
-  if (heard_at_) {
-    const Duration too_long = silence_ == Duration::zero() ? limits_.first_silence : silence_;
-    if (now - std::max(*heard_at_, *made_at_) >= too_long) return LinkCause::peer_silent;
-  }
+  if (silent_too_long(now)) return LinkCause::peer_silent;
   return leak(now);
 }
 
@@ -95,6 +92,15 @@ void LinkSupervisor::creation_failed(Timestamp now) noexcept {
 
 bool LinkSupervisor::heard_lately(Timestamp now) const noexcept {
   return heard_at_ && now - *heard_at_ < limits_.heard_within;
+}
+
+// A peer that was heard once, or was noticed and never heard: the handshake may be stuck.
+bool LinkSupervisor::silent_too_long(Timestamp now) const noexcept {
+  if (!heard_at_ && !noticed_at_) return false;
+  const Timestamp silent_since = std::max(heard_at_.value_or(*made_at_), *made_at_);
+  if (now - silent_since >= limits_.longest_silence) return true;
+  const Duration too_long = silence_ == Duration::zero() ? limits_.first_silence : silence_;
+  return now - std::max(noticed_at_.value_or(silent_since), silent_since) >= too_long;
 }
 
 bool LinkSupervisor::change_complete(Timestamp now) const noexcept {

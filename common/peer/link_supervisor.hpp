@@ -49,6 +49,9 @@ class LinkSupervisor {
   void addresses_changed(bool network, Timestamp now) noexcept;
   void resumed(Timestamp now) noexcept;
   void peer_heard(Timestamp now) noexcept;
+  // Somebody was discovered or authenticated: a handshake may be under way, which over a slow way takes seconds, or may
+  // have got stuck. Not proof of anything, so it puts a replacement off for no longer than longest_silence.
+  void peer_noticed(Timestamp now) noexcept { noticed_at_ = now; }
   void peer_restarted() noexcept { ++restarts_; }
   void memory_used(std::uint64_t bytes, Timestamp now) noexcept;
 
@@ -71,6 +74,7 @@ class LinkSupervisor {
   };
 
   [[nodiscard]] bool heard_lately(Timestamp now) const noexcept;
+  [[nodiscard]] bool silent_too_long(Timestamp now) const noexcept;
   [[nodiscard]] bool change_complete(Timestamp now) const noexcept;
   [[nodiscard]] std::optional<LinkCause> leak(Timestamp now) const noexcept;
   void note(LinkCause cause, Timestamp now) noexcept;
@@ -82,6 +86,7 @@ class LinkSupervisor {
   std::optional<Timestamp> retry_at_;
   Duration retry_ = Duration::zero();
   std::optional<Timestamp> heard_at_;
+  std::optional<Timestamp> noticed_at_;
   Duration silence_ = Duration::zero();  // the next one that is too long; zero: the first
   std::uint64_t restarts_ = 0;
   std::optional<std::uint64_t> memory_at_first_;
