@@ -159,6 +159,40 @@ TEST(LinkSupervisor, ReplacesEverMoreRarelyWhileThePeerStaysSilent) {
   EXPECT_EQ(world.supervisor.last_cause(), LinkCause::peer_silent);
 }
 
+TEST(LinkSupervisor, WaitsForAHandshakeThatIsUnderWay) {
+  World world;
+  world.peer_beats = true;
+  world.pass(20ms);
+  world.peer_beats = false;
+  world.pass(3s);
+  world.supervisor.peer_noticed(world.clock.now());
+  world.pass(3s);
+  EXPECT_EQ(world.made.size(), 1U);
+  world.pass(2s);
+  EXPECT_EQ(world.made.size(), 2U);
+}
+
+TEST(LinkSupervisor, FreesAHandshakeThatIsStuckBeforeThePeerWasEverHeard) {
+  World world;
+  world.pass(1s);
+  world.supervisor.peer_noticed(world.clock.now());
+  world.pass(6s);
+  EXPECT_EQ(world.made, (Mades{{LinkCause::first, 0s}, {LinkCause::peer_silent, 5s}}));
+}
+
+// Discovery is open to everybody on the network.
+TEST(LinkSupervisor, IsNotPutOffForEverByWhoeverShowsUp) {
+  World world;
+  world.peer_beats = true;
+  world.pass(20ms);
+  world.peer_beats = false;
+  for (int i = 0; i < 31; ++i) {
+    world.supervisor.peer_noticed(world.clock.now());
+    world.pass(1s);
+  }
+  EXPECT_EQ(world.made.size(), 2U);
+}
+
 TEST(LinkSupervisor, IsQuickAgainOnceThePeerWasHeard) {
   World world;
   world.peer_beats = true;
