@@ -2,6 +2,7 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <exception>
+#include <stdexcept>
 
 #include "ctl/command.hpp"
 
@@ -45,6 +46,8 @@ ExitCode parse_and_run(int argc, char** argv) {
     // --help comes this way, too, with code 0.
     result = app.exit(problem) == 0 ? ExitCode::ok : ExitCode::usage;
   }
+  // Onto a full disk half of a grant may have been written: that is no success.
+  if (std::fflush(stdout) != 0) throw std::runtime_error("the output can't be written: is the disk full?");
   return result;
 }
 

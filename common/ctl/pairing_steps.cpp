@@ -136,16 +136,23 @@ ExitCode pair_accept(const PairingWish& wish) {
 ExitCode pair_list(const PairingWish& wish) {
   const PairStore store(wish.folder, wish.side);
   auto pairs = nlohmann::json::array();
-  for (const Pair& pair : store.list())
-    pairs.push_back(as_json(pair));
+  for (const Pair& pair : store.list()) {
+    auto& json = pairs.emplace_back(as_json(pair));
+    json["faults"] = nlohmann::json::array();
+    for (const PairingFault& fault : store.preflight(pair, wall_now()))
+      json["faults"].push_back({{"file", fault.file.string()}, {"what", fault.what}, {"do", fault.to_do}});
+  }
   if (wish.json) {
     fmt::print("{}\n", nlohmann::json{{"pairs", pairs}}.dump());
     return ExitCode::ok;
   }
   if (pairs.empty()) fmt::print("no pairs in {}\n", wish.folder.string());
-  for (const auto& pair : pairs)
+  for (const auto& pair : pairs) {
     fmt::print("{}  {}  until {}  {}\n", text_of(pair["id"]), text_of(pair["name"]), text_of(pair["expires"]),
                text_of(pair["phrase"]));
+    for (const auto& fault : pair["faults"])
+      fmt::print("  {}: {}\n  -> {}\n", text_of(fault["file"]), text_of(fault["what"]), text_of(fault["do"]));
+  }
   return ExitCode::ok;
 }
 

@@ -12,7 +12,7 @@ namespace {
 
 struct Numbers {
   std::mutex mutex;
-  std::bitset<max_loopback_participants> taken;
+  std::bitset<max_participants> taken;
 };
 
 Numbers& numbers() {
@@ -25,7 +25,7 @@ Numbers& numbers() {
 ParticipantNumber::ParticipantNumber() {
   const std::lock_guard lock(numbers().mutex);
   while (numbers().taken.test(number_)) {
-    if (++number_ == max_loopback_participants) throw DdsError("this program has too many DDS participants");
+    if (++number_ == max_participants) throw DdsError("this program has too many DDS participants");
   }
   numbers().taken.set(number_);
 }

@@ -8,6 +8,8 @@ namespace telehug {
 
 // Participants of one host and domain that find each other without multicast: discovery tries that many ports.
 inline constexpr std::size_t max_loopback_participants = 10;
+// Of a domain: the ports of higher numbers are the next domain's (RTPS 2.2, 9.6.1.1).
+inline constexpr std::size_t max_participants = 120;
 
 // The number that a participant's first ports are computed from: the lowest that this program does not use.
 // Left to itself Fast DDS counts up with every participant that a process ever creates, and soon leaves the range that

@@ -69,12 +69,21 @@ void keep(const Pair& pair, const Json& texts, std::string key_pem) {
   write_secret(folder / "pair.json", about.dump(2) + "\n");
 }
 
+// Nothing if the pair was never finished. Throws if it was and can't be read: whoever has it must not go on as if there
+// were none.
 std::optional<Pair> read_pair(const fs::path& folder, Side side) {
-  const Json about = Json::parse(read_secret(folder / "pair.json"), nullptr, false);
+  const fs::path file = folder / "pair.json";
+  std::error_code none;
+  if (fs::status(file, none).type() == fs::file_type::not_found) return {};
+  const Json about = Json::parse(read_secret(file), nullptr, false);
   const std::string id = folder.filename().string();
   if (!about.is_object() || text_in(about, "id") != id || !about.contains("expires") ||
       !about["expires"].is_number_integer()) {
-    return {};
+    throw std::runtime_error(
+        fmt::format("{} is damaged or can't be read by this user: run as the user who made the pair, or `telehug pair "
+                    "revoke {}` and "
+                    "pair the two PCs again",
+                    file.string(), id));
   }
   return Pair{id,
               text_in(about, "name"),
@@ -223,10 +232,10 @@ Result<Pair> PairStore::accept(const std::string& grant, WallTime now) {
 
 std::vector<Pair> PairStore::list() const {
   std::vector<Pair> pairs;
-  std::error_code none;
-  for (fs::directory_iterator at(folder_, none), end; !none && at != end; at.increment(none)) {
-    if (!is_id(at->path().filename().string())) continue;
-    if (auto pair = read_pair(at->path(), side_)) pairs.push_back(*std::move(pair));
+  if (!fs::exists(folder_)) return pairs;
+  for (const auto& entry : fs::directory_iterator(folder_)) {
+    if (!is_id(entry.path().filename().string())) continue;
+    if (auto pair = read_pair(entry.path(), side_)) pairs.push_back(*std::move(pair));
   }
   std::sort(pairs.begin(), pairs.end(), [](const Pair& a, const Pair& b) { return a.id < b.id; });
   return pairs;

@@ -62,6 +62,7 @@ class PairStore {
 
   // --- either ---
 
+  // Throws std::runtime_error (a sentence) if a pair is there and can't be read.
   [[nodiscard]] std::vector<Pair> list() const;
   // Takes the pair's files away, overwriting its secrets; its id can't be used again on this PC. False: no such pair.
   bool revoke(const std::string& id);

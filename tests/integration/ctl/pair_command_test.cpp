@@ -87,6 +87,24 @@ TEST_F(PairCommand, KeepsNothingWhenBothPcsAreAWearers) {
   EXPECT_TRUE(pairs("passive").empty());
 }
 
+TEST_F(PairCommand, ListsWhatIsWrongWithAPairAndWhatMendsIt) {
+  ASSERT_EQ(run("request --name Mum" + on("active"), "/dev/null", "request.txt"), 0) << content("errors.txt");
+  ASSERT_EQ(run("grant --name Kim" + on("passive"), folder_ / "request.txt", "grant.txt"), 0) << content("errors.txt");
+  EXPECT_TRUE(pairs("passive").at(0).at("faults").empty());
+  const std::string id = pairs("passive").at(0).at("id");
+  std::filesystem::remove(folder_ / "passive" / id / "permissions.p7s");
+  EXPECT_EQ(pairs("passive").at(0).at("faults").size(), 1U);
+  EXPECT_EQ(run("list" + on("passive")), 0);
+  EXPECT_NE(content("out.txt").find("permissions.p7s: it is missing"), std::string::npos) << content("out.txt");
+}
+
+TEST_F(PairCommand, DoesNotCallItSuccessWhenTheTextCouldNotBeWritten) {
+  const std::string line = TELEHUG_BIN "/telehug pair request --name Mum" + on("active") + " >/dev/full 2>" +
+                           (folder_ / "errors.txt").string();
+  EXPECT_NE(std::system(line.c_str()), 0);
+  EXPECT_NE(content("errors.txt").find("is the disk full?"), std::string::npos) << content("errors.txt");
+}
+
 TEST_F(PairCommand, SaysThatACodeIsMistyped) {
   EXPECT_EQ(run("accept 12345" + on("active")), 2);
   EXPECT_NE(content("errors.txt").find("pairing code has 40"), std::string::npos) << content("errors.txt");

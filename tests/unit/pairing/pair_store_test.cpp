@@ -242,6 +242,23 @@ TEST_F(Pairs, WhoseSignedDocumentsWereChangedAreNamed) {
   EXPECT_THAT(fault.what, HasSubstr("changed afterwards"));
 }
 
+// A daemon would otherwise go on as if there were no pair.
+TEST_F(Pairs, ThatCantBeReadAreNotTakenForNone) {
+  const Pair pair = pair_up(parent, wearer).parent;
+  const fs::path file = folder / "parent" / pair.id / "pair.json";
+  overwrite(file, "nonsense");
+  try {
+    (void)parent.list();
+    ADD_FAILURE() << "it was listed";
+  } catch (const std::runtime_error& problem) {
+    EXPECT_THAT(problem.what(), HasSubstr(file.string()));
+    EXPECT_THAT(problem.what(), HasSubstr("telehug pair revoke " + pair.id));
+  }
+  // One that was never finished is none.
+  fs::remove(file);
+  EXPECT_TRUE(parent.list().empty());
+}
+
 TEST_F(Pairs, WithFilesOfAnotherPairAreNamed) {
   PairStore father(folder / "father", Side::active);
   const Pair mothers = pair_up(parent, wearer).parent;
