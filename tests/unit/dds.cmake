@@ -30,7 +30,7 @@ telehug_test(test_peer_link KIND unit SUBJECT link
 
 telehug_test(test_pairing KIND unit SUBJECT link
   SOURCES unit/pairing/pair_store_test.cpp
-  DEPS telehug_pairing nlohmann_json::nlohmann_json)
+  DEPS telehug_pairing nlohmann_json::nlohmann_json OpenSSL::Crypto)
 
 telehug_test(test_pairing_link KIND unit SUBJECT link
   SOURCES unit/pairing_link/pairing_code_test.cpp unit/pairing_link/pairing_exchange_test.cpp

@@ -8,6 +8,7 @@
 
 #include "doubles/temporary_folder.hpp"
 #include "pairing/armour.hpp"
+#include "pairing/certificates.hpp"
 #include "pairing/pairing.hpp"
 
 namespace telehug {
@@ -155,6 +156,39 @@ TEST_F(Pairs, TrustNoAuthorityThatStandsBehindTheWearersInTheGrant) {
   EXPECT_EQ(content(pair.files.identity_ca), authority);
   overwrite(pair.files.identity_ca, authority + false_authority);
   EXPECT_THAT(only_fault(parent, pair).what, HasSubstr("more than one certificate"));
+}
+
+TEST_F(Pairs, RefuseAGrantWhoseWearerIsOfAnotherAuthority) {
+  PairStore false_parent(folder / "false-parent", Side::active);
+  PairStore false_wearer(folder / "false-wearer", Side::passive);
+  auto grant = unarmour("grant", wearer.grant(parent.request("Grandma").value(), "Mia", now)->grant).value();
+  grant["wearers_certificate"] = content(pair_up(false_parent, false_wearer).wearer.files.certificate);
+  EXPECT_THAT(parent.accept(armour("grant", grant), now).error().message, HasSubstr("of another authority"));
+}
+
+TEST_F(Pairs, RefuseARequestThatIsNotSignedWithItsOwnKey) {
+  auto request = unarmour("request", parent.request("Grandma").value()).value();
+  std::string signing_request = request["request"];
+  // The signature stands last; 40 characters before the end are within it.
+  char& letter = signing_request.at(signing_request.rfind("-----END") - 40);
+  letter = letter == 'A' ? 'B' : 'A';
+  request["request"] = signing_request;
+  EXPECT_THAT(wearer.grant(armour("request", request), "Mia", now).error().message,
+              HasSubstr("not signed with its own key"));
+}
+
+TEST_F(Pairs, RefuseARequestWithAKeyOfAnotherKind) {
+  const KeyHandle key(EVP_EC_gen("P-384"));
+  const nlohmann::json request = {{"version", 1}, {"name", "Grandma"}, {"request", signing_request(key.get(), "any")}};
+  EXPECT_THAT(wearer.grant(armour("request", request), "Mia", now).error().message,
+              HasSubstr("not an EC key on P-256"));
+}
+
+TEST_F(Pairs, AreAHundredAtMost) {
+  const std::string request = parent.request("Grandma").value();
+  for (int i = 0; i < 100; ++i)
+    ASSERT_TRUE(wearer.grant(request, "Mia", now));
+  EXPECT_THAT(wearer.grant(request, "Mia", now).error().message, HasSubstr("100 pairs already"));
 }
 
 TEST_F(Pairs, AreAcceptedOnce) {
