@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 #include <netinet/in.h>
+#include <openssl/ssl.h>
 #include <signal.h>
 #include <sys/socket.h>
 #include <unistd.h>
@@ -12,6 +13,7 @@
 #include <array>
 #include <cstring>
 #include <future>
+#include <memory>
 
 namespace telehug {
 namespace {
@@ -146,6 +148,28 @@ TEST_F(PairingExchange, RefusesAMessageThatIsTooLong) {
   offer.make_request = [] { return Result<std::string>(std::string(TlsChannel::longest_message_bytes, 'x')); };
   EXPECT_TRUE(says(dial(invitation.code(), offer), "too long"));
   EXPECT_FALSE(inviter.get());
+}
+
+// Who knows the code and has another program: it announces two gigabytes.
+TEST_F(PairingExchange, ReadsNoMessageThatIsAnnouncedTooLong) {
+  Invitation invitation(here);
+  auto inviter = start(invitation, wearer());
+  const auto connection = stranger(invitation.code());
+  static TlsChannel::Secret secret;
+  secret = invitation.code().secret;
+  const std::unique_ptr<SSL_CTX, decltype(&SSL_CTX_free)> context(SSL_CTX_new(TLS_client_method()), &SSL_CTX_free);
+  SSL_CTX_set_ciphersuites(context.get(), "TLS_AES_128_GCM_SHA256");
+  SSL_CTX_set_psk_client_callback(context.get(),
+                                  [](SSL*, const char*, char* identity, unsigned, unsigned char* psk, unsigned) {
+                                    std::strcpy(identity, "telehug pairing");
+                                    std::memcpy(psk, secret.data(), secret.size());
+                                    return static_cast<unsigned>(secret.size());
+                                  });
+  const std::unique_ptr<SSL, decltype(&SSL_free)> ssl(SSL_new(context.get()), &SSL_free);
+  SSL_set_fd(ssl.get(), connection.get());
+  ASSERT_EQ(SSL_connect(ssl.get()), 1);
+  ASSERT_EQ(SSL_write(ssl.get(), "\x7F\xFF\xFF\xFF", 4), 4);
+  EXPECT_TRUE(says(inviter.get(), "too long"));
 }
 
 TEST_F(PairingExchange, SaysThatEqualSidesAreNoPair) {
