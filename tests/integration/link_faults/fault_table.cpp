@@ -60,12 +60,11 @@ Duration FeltTimes::longest_gap(Timestamp from, Timestamp to) const {
 }
 
 std::string table_text(const std::vector<FaultRow>& rows) {
-  std::string text = fmt::format("{:<52} {:>12} {:>8} {:>15} {:>13}  {}\n", "fault", "off after ms", "felt %",
-                                 "longest gap ms", "back after s", "remark");
+  std::string text = fmt::format("{:<52} {:>12} {:>8} {:>15} {:>13}\n", "fault", "off after ms", "felt %",
+                                 "longest gap ms", "back after s");
   for (const FaultRow& row : rows) {
-    text += fmt::format("{:<52} {:>12} {:>8} {:>15} {:>13}  {}\n", row.fault, figure(row.off_after_ms, 0),
-                        figure(row.felt_percent, 1), figure(row.longest_gap_ms, 0), figure(row.back_after_s, 2),
-                        row.remark);
+    text += fmt::format("{:<52} {:>12} {:>8} {:>15} {:>13}\n", row.fault, figure(row.off_after_ms, 0),
+                        figure(row.felt_percent, 1), figure(row.longest_gap_ms, 0), figure(row.back_after_s, 2));
   }
   return text;
 }

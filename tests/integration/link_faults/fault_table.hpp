@@ -38,7 +38,6 @@ struct FaultRow {
   std::optional<double> felt_percent = {};    // NOLINT(readability-redundant-member-init)
   std::optional<double> longest_gap_ms = {};  // NOLINT(readability-redundant-member-init)
   std::optional<double> back_after_s = {};    // NOLINT(readability-redundant-member-init)
-  std::string remark = {};                    // NOLINT(readability-redundant-member-init)
 };
 
 [[nodiscard]] std::string table_text(const std::vector<FaultRow>& rows);

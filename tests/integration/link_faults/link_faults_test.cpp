@@ -111,30 +111,6 @@ class LongLinkFaults : public LinkFaults {
   }
 };
 
-// What is not asked of the product: only told.
-class ToldOnly : public LongLinkFaults {
- protected:
-  static void tell(FaultRow row) {
-    if (!row.back_after_s) add_reasons(row);
-    rows.push_back(std::move(row));
-    link->start_active();  // as it must be for whatever comes next
-  }
-
- private:
-  static void add_reasons(FaultRow& row) {
-    row.remark = "not felt again";
-    for (const Side side : {Side::active, Side::passive}) {
-      const auto status = link->pair.status(side);
-      if (!status.is_object()) {
-        row.remark += "; " + side_name(side) + " ended";
-        continue;
-      }
-      for (const auto& problem : status.at("problems"))
-        row.remark += "; " + side_name(side) + ": " + problem.at("what").get<std::string>();
-    }
-  }
-};
-
 TEST_F(LinkFaults, APulledCableIsFollowedBySilenceAndReturn) {
   cut("cable pulled for 10 s", Since::last_arrival, 10s, {.loss = 1}, {.loss = 1});
 }
@@ -238,6 +214,29 @@ TEST_F(LinkFaults, GarbageAndTruncatedPacketsAreSurvived) {
   EXPECT_TRUE(link->pair.passive->runs()) << link->pair.logs();
 }
 
+TEST_F(LinkFaults, PacketsWithBitsTurnedOverAreSurvived) {
+  PacketMangler mangler(link->first_words(), port(0));
+  expect_return(link->disturb(
+      "RTPS with bits turned over", [&] { pour([&] { return mangler.turned_over(); }); }, [] {}));
+}
+
+TEST_F(LinkFaults, ANetworkThatComesAfterTheDaemonIsUsed) {
+  expect_silence_and_return(link->interrupt(
+      "telehug-active started 2 s before its address", Since::last_arrival, 2s,
+      [] {
+        link->pair.active->kill_now();
+        link->homes.take_address(Home::parent);
+        link->start_active();
+      },
+      [] { link->homes.give_address(Home::parent); }));
+}
+
+TEST_F(LinkFaults, AnAddressThatIsTakenAndGivenBackIsFollowedBySilenceAndReturn) {
+  expect_silence_and_return(link->interrupt(
+      "address of the sender's side gone for 3 s", Since::last_arrival, 3s,
+      [] { link->homes.take_address(Home::parent); }, [] { link->homes.give_address(Home::parent); }));
+}
+
 TEST(WithoutMulticast, TheOtherSideIsFoundByItsAddress) {
   std::unique_ptr<FaultyLink> link;
   try {
@@ -260,29 +259,6 @@ TEST_F(LongLinkFaults, ASenderStoppedForLong) {
 
 TEST_F(LongLinkFaults, AJacketsSideStoppedForLong) {
   stop_for("SIGSTOP of telehug-passive for 12 s", Since::cause, link->pair.passive->pid(), 12s);
-}
-
-TEST_F(ToldOnly, RtpsWithBitsTurnedOver) {
-  PacketMangler mangler(link->first_words(), port(0));
-  tell(link->disturb(
-      "RTPS with bits turned over", [&] { pour([&] { return mangler.turned_over(); }); }, [] {}));
-}
-
-TEST_F(ToldOnly, ANetworkThatComesAfterTheDaemon) {
-  tell(link->interrupt(
-      "telehug-active started 2 s before its address", Since::last_arrival, 2s,
-      [] {
-        link->pair.active->kill_now();
-        link->homes.take_address(Home::parent);
-        link->start_active();
-      },
-      [] { link->homes.give_address(Home::parent); }));
-}
-
-TEST_F(ToldOnly, AnAddressThatIsTakenAndGivenBack) {
-  tell(link->interrupt(
-      "address of the sender's side gone for 3 s", Since::last_arrival, 3s,
-      [] { link->homes.take_address(Home::parent); }, [] { link->homes.give_address(Home::parent); }));
 }
 
 }  // namespace
