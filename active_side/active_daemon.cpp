@@ -298,16 +298,7 @@ void ActiveDaemon::keep_link() {
     const std::lock_guard lock(state_mutex_);
     peer = state_.peer;
   }
-  link_keeper_.serve(peer, {.disconnect =
-                                [this] {
-                                  traffic_.disconnect();
-                                  peer_.disconnect();
-                                },
-                            .connect =
-                                [this](DdsParticipant& participant) {
-                                  peer_.connect(participant);
-                                  traffic_.connect(participant);
-                                }});
+  link_keeper_.serve(peer, LinkKeeper::endpoints(peer_, traffic_));
 }
 
 }  // namespace telehug

@@ -183,16 +183,7 @@ void PassiveDaemon::tell_peer() {
 }
 
 void PassiveDaemon::keep_link() {
-  link_keeper_.serve(state().peer, {.disconnect =
-                                        [this] {
-                                          traffic_.disconnect();
-                                          peer_.disconnect();
-                                        },
-                                    .connect =
-                                        [this](DdsParticipant& participant) {
-                                          peer_.connect(participant);
-                                          traffic_.connect(participant);
-                                        }});
+  link_keeper_.serve(state().peer, LinkKeeper::endpoints(peer_, traffic_));
 }
 
 }  // namespace telehug

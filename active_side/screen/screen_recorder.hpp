@@ -7,7 +7,7 @@
 #include <optional>
 #include <string>
 
-#include "screen/private_file.hpp"
+#include "files/private_file.hpp"
 #include "screen/screen_grabber.hpp"
 
 namespace telehug {

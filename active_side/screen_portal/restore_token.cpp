@@ -3,14 +3,13 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <array>
-#include <cerrno>
-#include <cstring>
 #include <system_error>
+
+#include "files/private_file.hpp"
 
 namespace telehug {
 namespace fs = std::filesystem;
@@ -21,15 +20,6 @@ constexpr std::size_t longest_token = 1024;  // those of today's desktops are UU
 bool may_be_a_token(const std::string& text) {
   return !text.empty() && text.size() <= longest_token &&
          std::all_of(text.begin(), text.end(), [](char letter) { return letter > ' ' && letter <= '~'; });
-}
-
-bool write_private_file(const fs::path& file, const std::string& content) {
-  // Made anew, so that neither a link nor the permissions of what lay there before are taken over.
-  ::unlink(file.c_str());
-  const int fd = ::open(file.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, S_IRUSR | S_IWUSR);
-  if (fd < 0) return false;
-  const bool written = ::write(fd, content.data(), content.size()) == static_cast<ssize_t>(content.size());
-  return ::close(fd) == 0 && written;
 }
 
 }  // namespace
@@ -52,15 +42,12 @@ Status write_restore_token(const fs::path& file, const std::string& token) {
   }
   std::error_code ignored;
   if (file.has_parent_path()) fs::create_directories(file.parent_path(), ignored);
-  const fs::path unfinished = file.string() + ".new";
-  errno = 0;
-  if (write_private_file(unfinished, token + '\n') && ::rename(unfinished.c_str(), file.c_str()) == 0) return Done{};
-  const int code = errno;
-  ::unlink(unfinished.c_str());
-  return Error{
-      fmt::format("Your consent to share the screen can't be kept in {} ({}); make the folder writable, or "
-                  "the desktop asks at each start.",
-                  file.string(), std::strerror(code))};
+  if (const Status kept = keep_private_file(file, token + '\n'); !kept) {
+    return Error{
+        fmt::format("Your consent to share the screen can't be kept in {}: {}, or the desktop asks at each start.",
+                    file.parent_path().string(), kept.error().message)};
+  }
+  return Done{};
 }
 
 void remove_restore_token(const fs::path& file) {

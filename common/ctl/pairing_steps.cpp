@@ -22,10 +22,6 @@ namespace {
 
 constexpr std::size_t longest_text = 64 * 1024;
 
-WallTime wall_now() {
-  return std::chrono::floor<std::chrono::seconds>(std::chrono::system_clock::now());
-}
-
 ExitCode fail(ExitCode code, const std::string& sentence) {
   fmt::print(stderr, "telehug: {}\n", plain_text(sentence));
   return code;
@@ -57,13 +53,13 @@ class Pairing {
     return {.side = wish_.side,
             .make_request = [this] { return store_.request(wish_.name); },
             .accept = [this](const std::string& grant) -> Status {
-              auto pair = store_.accept(grant, wall_now());
+              auto pair = store_.accept(grant, wall_time());
               if (!pair) return pair.error();
               pair_ = *pair;
               return Done{};
             },
             .grant_for = [this](const std::string& request) -> Result<std::string> {
-              auto granted = store_.grant(request, wish_.name, wall_now());
+              auto granted = store_.grant(request, wish_.name, wall_time());
               if (!granted) return granted.error();
               pair_ = granted->pair;
               return granted->grant;
@@ -139,7 +135,7 @@ ExitCode pair_list(const PairingWish& wish) {
   for (const Pair& pair : store.list()) {
     auto& json = pairs.emplace_back(as_json(pair));
     json["faults"] = nlohmann::json::array();
-    for (const PairingFault& fault : store.preflight(pair, wall_now()))
+    for (const PairingFault& fault : store.preflight(pair, wall_time()))
       json["faults"].push_back({{"file", fault.file.string()}, {"what", fault.what}, {"do", fault.to_do}});
   }
   if (wish.json) {
@@ -183,7 +179,7 @@ ExitCode pair_grant(const PairingWish& wish) {
   const auto request = read_text(wish.file);
   if (!request) return fail(ExitCode::refused, request.error().message);
   PairStore store(wish.folder, wish.side);
-  const auto granted = store.grant(*request, wish.name, wall_now());
+  const auto granted = store.grant(*request, wish.name, wall_time());
   if (!granted) return fail(ExitCode::refused, granted.error().message);
   fmt::print("{}\n", granted->grant);
   // Stdout is the text for the other PC and nothing else.
@@ -197,7 +193,7 @@ ExitCode pair_finish(const PairingWish& wish) {
   const auto grant = read_text(wish.file);
   if (!grant) return fail(ExitCode::refused, grant.error().message);
   PairStore store(wish.folder, wish.side);
-  const auto pair = store.accept(*grant, wall_now());
+  const auto pair = store.accept(*grant, wall_time());
   if (!pair) return fail(ExitCode::refused, pair.error().message);
   print_pair(stdout, *pair, wish.json);
   return ExitCode::ok;

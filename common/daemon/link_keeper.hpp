@@ -30,6 +30,21 @@ class LinkKeeper {
     std::function<void(DdsParticipant&)> connect;
   };
 
+  // Of a PeerLink and a Traffic.
+  template <typename SomeTraffic>
+  [[nodiscard]] static Endpoints endpoints(PeerLink& peer, SomeTraffic& traffic) {
+    return {.disconnect =
+                [&] {
+                  traffic.disconnect();
+                  peer.disconnect();
+                },
+            .connect =
+                [&](DdsParticipant& participant) {
+                  peer.connect(participant);
+                  traffic.connect(participant);
+                }};
+  }
+
   // Housekeeping thread, every round.
   void serve(const PeerState& peer, const Endpoints& endpoints);
 

@@ -93,8 +93,4 @@ std::string describe(const Membership& membership) {
                      membership.dds.loopback_only ? "; only on this PC (peer.loopback_only)" : "");
 }
 
-WallTime wall_time() {
-  return std::chrono::floor<std::chrono::seconds>(std::chrono::system_clock::now());
-}
-
 }  // namespace telehug

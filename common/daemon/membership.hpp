@@ -32,6 +32,4 @@ struct Membership {
 // One line for the log.
 [[nodiscard]] std::string describe(const Membership& membership);
 
-[[nodiscard]] WallTime wall_time();
-
 }  // namespace telehug

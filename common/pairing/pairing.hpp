@@ -22,6 +22,10 @@ namespace telehug {
 
 using WallTime = std::chrono::sys_seconds;  // certificates know nothing else
 
+[[nodiscard]] inline WallTime wall_time() {
+  return std::chrono::floor<std::chrono::seconds>(std::chrono::system_clock::now());
+}
+
 struct Pair {
   std::string id;            // 16 hexadecimal digits, the same on both PCs
   std::string name;          // of the other person, as they gave it

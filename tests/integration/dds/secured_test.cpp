@@ -17,13 +17,9 @@
 namespace telehug {
 namespace {
 
-WallTime now() {
-  return std::chrono::floor<std::chrono::seconds>(std::chrono::system_clock::now());
-}
-
 class Secured : public testing::Test {
  protected:
-  Pair pair_up(const std::string& parents, const std::string& wearers, WallTime when = now()) {
+  Pair pair_up(const std::string& parents, const std::string& wearers, WallTime when = wall_time()) {
     PairStore parent(folder / parents, Side::active);
     PairStore wearer(folder / wearers, Side::passive);
     const auto granted = wearer.grant(parent.request("Grandma").value(), "Mia", when).value();
@@ -134,7 +130,7 @@ TEST_F(Secured, SideMayNotWriteWhereItIsNotPermitted) {
 }
 
 TEST_F(Secured, SideWhosePairHasExpiredDoesNotComeUp) {
-  const Pair expired = pair_up("late-parent", "late-wearer", now() - std::chrono::hours(24 * 400));
+  const Pair expired = pair_up("late-parent", "late-wearer", wall_time() - std::chrono::hours(24 * 400));
   EXPECT_THROW(DdsParticipant participant(settings(expired)), DdsError);
 }
 

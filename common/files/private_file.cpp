@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "screen/private_file.hpp"
+#include "files/private_file.hpp"
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -20,6 +20,20 @@ Error failure(const fs::path& path, int code) {
   if (code == ENOSPC || code == EDQUOT || code == EFBIG) advice = "free some space on the disk";
   if (code == EEXIST) advice = "choose another folder";
   return Error{fmt::format("{} can't be written ({}); {}", path.string(), std::strerror(code), advice)};
+}
+
+Status write_whole(const fs::path& path, const fs::path& unfinished, std::span<const std::uint8_t> bytes, bool sync) {
+  auto file = PrivateFile::create(unfinished);
+  if (!file) return file.error();
+  Status written = file->append(bytes);
+  if (written && sync) written = file->sync();
+  if (written) written = file->close();
+  std::error_code problem;
+  if (written) fs::rename(unfinished, path, problem);
+  if (written && !problem) return Done{};
+  std::error_code ignored;
+  fs::remove(unfinished, ignored);
+  return written ? failure(path, problem.value()) : written;
 }
 
 }  // namespace
@@ -60,6 +74,11 @@ Status PrivateFile::append(std::span<const std::uint8_t> bytes) {
   return Done{};
 }
 
+Status PrivateFile::sync() {
+  if (::fsync(descriptor_) != 0) return failure(path_, errno);
+  return Done{};
+}
+
 Status PrivateFile::close() {
   if (::close(std::exchange(descriptor_, -1)) != 0) return failure(path_, errno);
   return Done{};
@@ -71,17 +90,14 @@ Status make_private_folder(const fs::path& folder) {
 }
 
 Status write_private_file(const fs::path& path, std::span<const std::uint8_t> bytes) {
-  const fs::path unfinished = path.string() + ".part";
-  auto file = PrivateFile::create(unfinished);
-  if (!file) return file.error();
-  Status written = file->append(bytes);
-  if (written) written = file->close();
-  std::error_code problem;
-  if (written) fs::rename(unfinished, path, problem);
-  if (written && !problem) return Done{};
+  return write_whole(path, path.string() + ".part", bytes, false);
+}
+
+Status keep_private_file(const fs::path& path, std::string_view text) {
+  const fs::path unfinished = path.string() + ".new";
   std::error_code ignored;
-  fs::remove(unfinished, ignored);
-  return written ? failure(path, problem.value()) : written;
+  fs::remove(unfinished, ignored);  // of a program that was killed
+  return write_whole(path, unfinished, {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()}, true);
 }
 
 }  // namespace telehug

@@ -10,7 +10,8 @@
 
 namespace telehug {
 
-// A new file that nobody but its owner may read, for pictures of people. Errors name the file and say what to do.
+// A new file that nobody but its owner may read, for pictures of people and for keys. Errors name the file and say what
+// to do.
 class PrivateFile {
  public:
   // Mode 0600. A file or link that is there already is an error: it could be somebody else's.
@@ -25,6 +26,8 @@ class PrivateFile {
   Status append(std::string_view text);
   Status append(std::span<const std::uint8_t> bytes);
 
+  // What was written survives a power cut from here on.
+  Status sync();
   // Says whether all of it has arrived.
   Status close();
 
@@ -41,5 +44,8 @@ Status make_private_folder(const std::filesystem::path& folder);
 
 // A whole file of mode 0600, which appears under its name when it is complete.
 Status write_private_file(const std::filesystem::path& path, std::span<const std::uint8_t> bytes);
+
+// The same for what is kept: takes the place of what was there, and survives a power cut.
+Status keep_private_file(const std::filesystem::path& path, std::string_view text);
 
 }  // namespace telehug
