@@ -21,7 +21,8 @@ Examples:
   telehug-active show-boxes chat.jpg --out boxes.png
 
 Exit codes: 0 ok, 1 fault of telehug, 2 wrong command line, 3 faults in the configuration, 4 a camera, picture or
-  recording can't be used, 10 another telehug-active runs, 13 DDS can't be set up.)";
+  recording can't be used, 10 another telehug-active runs, 13 DDS can't be set up, 15 the pair was revoked or has
+  expired.)";
 
 ExitCode parse_and_run(int argc, char** argv) {
   // A second thread makes nothing here faster and would compete with the touch path.

@@ -24,7 +24,7 @@ Examples:
 
 Exit codes: 0 ok, 1 fault of telehug, 2 wrong command line, 5 no daemon is running, 6 peer absent (--check),
   7 not allowed to use the socket, 8 the daemon does not answer properly, 9 the daemon refused, 11 stopped (--check),
-  12 a side can't work (--check).)";
+  12 a side can't work (--check), 13 no network for `pair invite`.)";
 
 ExitCode parse_and_run(int argc, char** argv) {
   ExitCode result = ExitCode::ok;
