@@ -74,8 +74,13 @@ enum class FeltOutcome : std::uint8_t {
   stale = 3,          // too old to be felt
   jacket_absent = 4,  // no jacket answers
   limited = 5,        // a limit left nothing of it
+  // What the wearer wants (or not just now):
+  paused = 6,
+  quiet_hours = 7,
+  muted = 8,           // at this place
+  another_sender = 9,  // somebody else touches, and one at a time may
 };
-inline constexpr std::uint8_t felt_outcome_count = 6;
+inline constexpr std::uint8_t felt_outcome_count = 10;
 
 // The passive side's answer to one contact of one TouchEvent.
 struct Felt {

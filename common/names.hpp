@@ -18,8 +18,8 @@ namespace telehug {
 }
 
 [[nodiscard]] constexpr const char* name_of(FeltOutcome outcome) noexcept {
-  constexpr const char* names[felt_outcome_count] = {"driven", "uncovered",     "stopped",
-                                                     "stale",  "jacket absent", "limited"};
+  constexpr const char* names[felt_outcome_count] = {"driven",  "uncovered", "stopped",     "stale", "jacket absent",
+                                                     "limited", "paused",    "quiet hours", "muted", "another sender"};
   return names[static_cast<std::size_t>(outcome)];
 }
 

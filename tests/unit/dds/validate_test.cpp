@@ -93,7 +93,7 @@ TEST(AFelt, IsRefusedWithTheReason) {
                           {"a session is not 32 hexadecimal digits", [](auto& felt) { felt.touch_session.clear(); }},
                           {"the sequence number is 0", [](auto& felt) { felt.touch_sequence = 0; }},
                           {"the phase is unknown", [](auto& felt) { felt.phase = Phase{255}; }},
-                          {"the outcome is unknown", [](auto& felt) { felt.outcome = FeltOutcome{6}; }},
+                          {"the outcome is unknown", [](auto& felt) { felt.outcome = FeltOutcome{felt_outcome_count}; }},
                           {"the box is impossible", [](auto& felt) { felt.box = 0; }},
                           {"the box is impossible", [](auto& felt) { felt.box = 10'001; }},
                           {"a time is negative", [](auto& felt) { felt.received_time_ns = -1; }},
