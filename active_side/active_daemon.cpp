@@ -23,18 +23,15 @@ constexpr std::uint32_t versions_a_rig = 1U << 20U;
 
 }  // namespace
 
-ActiveDaemon::ActiveDaemon(const ActiveConfig& config, Membership membership, std::unique_ptr<FrameSource> camera,
+ActiveDaemon::ActiveDaemon(const ActiveConfig& config, Memberships memberships, std::unique_ptr<FrameSource> camera,
                            const Clock& clock)
     : config_(config),
-      membership_(std::move(membership)),
+      left_out_(std::move(memberships.left_out)),
       clock_(clock),
       started_(clock.now()),
       session_(new_session_id()),
       camera_(std::move(camera)),
       camera_name_(camera_->name()),
-      link_keeper_(membership_.dds, clock),
-      peer_(link_keeper_.participant(), Side::active, session_, std::chrono::milliseconds(config.heartbeat_timeout_ms),
-            clock),
       events_published_(metrics_.counter("events_published")),
       touches_published_(metrics_.counter("touches_published")),
       publish_failed_(metrics_.counter("events_not_published")),
@@ -47,22 +44,22 @@ ActiveDaemon::ActiveDaemon(const ActiveConfig& config, Membership membership, st
       local_touch_(local_outputs(config.local_touch), clock),
       sending_switch_(config.sending.at_start, config.sending.only_in_front),
       calibration_path_(rig_file(config.rig)),
-      traffic_([this](const Felt& felt) { felt_.push(felt); }),
+      wearers_(PairsWatch(config.peer, Side::active, clock),
+               [this](Membership membership, const Wearers::List&) {
+                 return std::make_shared<ConnectedWearer>(
+                     std::move(membership), session_, std::chrono::milliseconds(config_.heartbeat_timeout_ms), clock_);
+               }),
       control_(std::make_unique<ControlServer>(control_options(config.control, Side::active))) {
   if (config_.overlay.show)
     overlay_.emplace(X11OverlayConfig{.display = {}, .monitor = config_.body_map.monitor}, clock);
   if (!config_.sending.hotkey.empty())
     hotkey_.emplace(X11HotkeyConfig{.display = {}, .keys = config_.sending.hotkey}, clock);
   answer_commands();
-  traffic_.connect(link_keeper_.participant());
+  wearers_.open(std::move(memberships.members));
 }
 
 ActiveDaemon::~ActiveDaemon() {
   end_thread();
-  traffic_.disconnect();
-  peer_.disconnect();
-  // The queue's own destructor (Boost 1.74) does not destroy what it holds.
-  felt_.consume_all([](const Felt&) {});
 }
 
 ExitCode ActiveDaemon::run(Signals& signals) {
@@ -70,30 +67,34 @@ ExitCode ActiveDaemon::run(Signals& signals) {
   control_->start();
   touch_thread_ = std::thread([this] { touch_loop(); });
   notifier_.ready();
-  spdlog::info("telehug-active {} runs; camera: {}; {}", version, camera_name_, describe(membership_));
-  std::optional<std::string> over;
+  spdlog::info("telehug-active {} runs; camera: {}", version, camera_name_);
+  for (const auto& wearer : wearers_.all())
+    spdlog::info("{}", describe(wearer->membership()));
+  for (const std::string& pair : left_out_)
+    spdlog::error("{}", pair);
+  bool paired = true;
   while (true) {
     const auto request = signals.wait(housekeeping_round);
-    over = pair_over(membership_, wall_time());
-    if (request == SignalRequest::stop || over) break;
+    if (request == SignalRequest::stop) break;
+    paired = follow_pairs();
+    if (!paired) break;
     if (request == SignalRequest::reload) calibration_time_.reset();
     load_rig_if_changed();
     tell_watchers();
     tell_local_touch();
     serve_desktop();
-    tell_peer();
-    keep_link();
+    keep_connections();
   }
   notifier_.stopping();
   end_thread();
-  if (over) spdlog::error("{}", *over);
   spdlog::info("telehug-active ends");
-  return over ? ExitCode::pair_ended : ExitCode::ok;
+  return paired ? ExitCode::ok : ExitCode::pair_ended;
 }
 
 void ActiveDaemon::end_thread() {
   ending_ = true;
   if (touch_thread_.joinable()) touch_thread_.join();
+  wearers_.close();
 }
 
 // --- touch thread ---
@@ -101,7 +102,9 @@ void ActiveDaemon::end_thread() {
 void ActiveDaemon::touch_loop() {
   while (!ending_) {
     const Timestamp now = clock_.now();
-    peer_.serve(now);
+    wearers_.adopt();
+    for (const auto& wearer : wearers_.adopted())
+      wearer->connection.serve(now);
     adopt_rig();
     if (camera_wanted(now)) {
       take_frame();
@@ -122,10 +125,14 @@ void ActiveDaemon::adopt_rig() {
   map_ = {};
 }
 
+bool ActiveDaemon::anybody_listens(Timestamp now) {
+  return std::ranges::any_of(wearers_.adopted(), [now](const auto& wearer) { return wearer->listens(now); });
+}
+
 bool ActiveDaemon::camera_wanted(Timestamp now) {
   // Switched off by hand, the camera is not needed; covered by another window the chat may be back at once.
-  const bool touches_go_out = rig_ && peer_.alive(now) && !stop_.stopped() && !peer_.stopped_by_peer() &&
-                              sending_switch_.mode() != SendingMode::off;
+  const bool touches_go_out =
+      rig_ && anybody_listens(now) && !stop_.stopped() && sending_switch_.mode() != SendingMode::off;
   const bool used_here = rig_ && local_touch_.on() && !stop_.stopped();
   if (!touches_go_out && !used_here) recording_over_ = false;
   if (rig_) rig_->face->want(touches_go_out && !recording_over_);
@@ -195,11 +202,19 @@ void ActiveDaemon::hold_back() {
     if (contact.phase == Phase::down) ++own_state_.withheld;
 }
 
+// To everybody, also to who has stopped it: the ends of what they felt must reach them. False if it went out to nobody.
+bool ActiveDaemon::send(const TouchEvent& event) {
+  bool sent = false;
+  for (const auto& wearer : wearers_.adopted())
+    sent = wearer->connection.write(event) || sent;
+  return sent;
+}
+
 void ActiveDaemon::publish(const TouchEvent* event, std::uint64_t frame_sequence) {
   local_touch_.put(rig_->pipeline.contacts(), rig_->pipeline.screen(), clock_.now());
   if (event == nullptr) return;
   const Timestamp started = clock_.now();
-  if (!traffic_.write(*event)) {
+  if (!send(*event)) {
     publish_failed_.add();
     return;
   }
@@ -237,7 +252,8 @@ void ActiveDaemon::tell_state(Timestamp now) {
   own_state_.detector = rig_ ? rig_->detector : "";
   own_state_.model = rig_ ? rig_->model : "";
   own_state_.knows_background = !rig_ || rig_->pipeline.knows_background();
-  own_state_.peer = peer_.state(now);
+  for (const auto& wearer : wearers_.adopted())
+    wearer->connection.tell_state(now);
   own_state_.picture = rig_ && own_state_.camera_open ? rig_->pipeline.verdict() : FrameVerdict::good;
   if (rig_) own_state_.nobody = rig_->pipeline.nobody_touched();
   own_state_.camera_drift = rig_ ? rig_->pipeline.camera_drift() : DriftState::steady;
@@ -273,12 +289,18 @@ void ActiveDaemon::load_rig_if_changed() {
   face_note_ = face_note;
 }
 
-void ActiveDaemon::tell_peer() {
-  stop_.tell(peer_);
-  if (auto peer_status = peer_.take_peer_status()) {
-    const std::lock_guard lock(words_mutex_);
-    peer_status_ = *std::move(peer_status);
-  }
+bool ActiveDaemon::follow_pairs() {
+  return wearers_.follow_pairs(wall_time(), [](ConnectedWearer&, const std::string& why) { spdlog::error("{}", why); });
+}
+
+std::vector<ConnectionStatus> ActiveDaemon::connections() const {
+  std::vector<ConnectionStatus> connections;
+  for (const auto& wearer : wearers_.all())
+    connections.push_back(wearer->connection.status());
+  return connections;
+}
+
+void ActiveDaemon::keep_connections() {
   SideStatus own;
   own.session = session_;
   own.side = Side::active;
@@ -289,16 +311,8 @@ void ActiveDaemon::tell_peer() {
     own.ready = rig_problem_.empty() && !own.stopped;
     own.reason = own.stopped ? stop_.reason() : rig_problem_;
   }
-  peer_.tell(own);
-}
-
-void ActiveDaemon::keep_link() {
-  PeerState peer;
-  {
-    const std::lock_guard lock(state_mutex_);
-    peer = state_.peer;
-  }
-  link_keeper_.serve(peer, LinkKeeper::endpoints(peer_, traffic_));
+  for (const auto& wearer : wearers_.all())
+    wearer->connection.keep(own, stop_);
 }
 
 }  // namespace telehug

@@ -15,14 +15,12 @@
 #include "common/latest_slot.hpp"
 #include "common/version.hpp"
 #include "config/config.hpp"
-#include "daemon/link_keeper.hpp"
-#include "daemon/membership.hpp"
+#include "connected_wearer.hpp"
+#include "daemon/connections.hpp"
 #include "daemon/stop_switch.hpp"
 #include "local_touch/local_touch.hpp"
 #include "overlay/x11_hotkey.hpp"
 #include "overlay/x11_overlay.hpp"
-#include "peer_link/peer_link.hpp"
-#include "peer_link/traffic.hpp"
 #include "rig.hpp"
 #include "sending_switch.hpp"
 #include "service/control_server.hpp"
@@ -55,7 +53,6 @@ struct TouchThreadState {
   std::string detector;  // in use; empty: there is no calibration
   std::string model;     // likewise
   bool knows_background = true;
-  PeerState peer;
   NobodyTouched nobody;
   std::uint64_t withheld = 0;  // touches that did not go out because of the sending switch
   DriftState camera_drift = DriftState::steady;
@@ -63,12 +60,12 @@ struct TouchThreadState {
 };
 
 // The parent's PC: one thread for the touch path, one for the face (FaceWorker), the calling one for everything that
-// may take its time. The camera is open only while a peer is connected or this
-// PC uses the touches itself, and the screen is looked at only while a peer is connected.
+// may take its time. Touches go to every wearer who is connected. The camera is open only while one is, or this PC uses
+// the touches itself, and the screen is looked at only while one is.
 class ActiveDaemon {
  public:
   // Throws AlreadyRunning, std::runtime_error or std::invalid_argument with a sentence for a person.
-  ActiveDaemon(const ActiveConfig& config, Membership membership, std::unique_ptr<FrameSource> camera,
+  ActiveDaemon(const ActiveConfig& config, Memberships memberships, std::unique_ptr<FrameSource> camera,
                const Clock& clock);
   ~ActiveDaemon();
   ActiveDaemon(const ActiveDaemon&) = delete;
@@ -78,9 +75,12 @@ class ActiveDaemon {
   ExitCode run(Signals& signals);
 
  private:
+  using Wearers = Connections<ConnectedWearer>;
+
   void end_thread();
 
   // Touch thread
+  [[nodiscard]] bool anybody_listens(Timestamp now);
   void touch_loop();
   void adopt_rig();
   [[nodiscard]] bool camera_wanted(Timestamp now);
@@ -88,6 +88,7 @@ class ActiveDaemon {
   void rest();
   void judge_sending(bool screen_known);
   void hold_back();
+  bool send(const TouchEvent& event);
   void publish(const TouchEvent* event, std::uint64_t frame_sequence);
   void tell_state(Timestamp now);
 
@@ -97,17 +98,18 @@ class ActiveDaemon {
   void tell_local_touch();
   void show_touched_box(const FaceState& face, FaceWorker* worker);
   void serve_desktop();
-  void tell_peer();
-  void keep_link();
+  [[nodiscard]] bool follow_pairs();
+  void keep_connections();
+  [[nodiscard]] std::vector<ConnectionStatus> connections() const;
   void answer_commands();
   nlohmann::json order_face(const nlohmann::json& request);
   nlohmann::json status() const;
   [[nodiscard]] nlohmann::json sending_json(const TouchThreadState& state) const;
-  [[nodiscard]] std::optional<SideStatus> peer_told() const;
-  nlohmann::json problems(const TouchThreadState& state, const FaceState& face) const;
+  nlohmann::json problems(const TouchThreadState& state, const FaceState& face,
+                          const std::vector<ConnectionStatus>& connections) const;
 
   ActiveConfig config_;
-  const Membership membership_;
+  const std::vector<std::string> left_out_;  // pairs that could not be used at the start, and why
   const Clock& clock_;
   Timestamp started_;
   SessionId session_;
@@ -116,8 +118,6 @@ class ActiveDaemon {
 
   std::unique_ptr<FrameSource> camera_;
   const std::string camera_name_;
-  LinkKeeper link_keeper_;
-  PeerLink peer_;
 
   // Touch thread
   std::unique_ptr<Rig> rig_;
@@ -148,7 +148,6 @@ class ActiveDaemon {
   mutable std::mutex state_mutex_;
   TouchThreadState state_;
   boost::lockfree::spsc_queue<SentTouch, boost::lockfree::capacity<1024>> sent_touches_;
-  boost::lockfree::spsc_queue<Felt, boost::lockfree::capacity<1024>> felt_;
 
   // Housekeeping
   const std::filesystem::path calibration_path_;
@@ -161,7 +160,6 @@ class ActiveDaemon {
   mutable std::mutex words_mutex_;  // guards the sentences below, which the control thread reads
   std::string rig_problem_;
   std::string face_note_;
-  std::optional<SideStatus> peer_status_;
   bool told_recording_over_ = false;
   TouchedBox touched_box_;
   std::optional<X11Overlay> overlay_;  // if it is wanted
@@ -169,13 +167,12 @@ class ActiveDaemon {
   Timestamp desktop_served_;
   std::string desktop_problem_;  // of these two; guarded by words_mutex_
   SayOnChange say_camera_;
-  SayOnChange say_peer_;
   SayOnChange say_face_;
   SayOnChange say_rig_;
   SayOnChange say_local_touch_;
   SayOnChange say_desktop_;
 
-  Traffic<TouchEvent, Felt> traffic_;
+  Wearers wearers_;
   std::unique_ptr<ControlServer> control_;
   std::thread touch_thread_;
 };

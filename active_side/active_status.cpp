@@ -3,6 +3,8 @@
 // What the active daemon tells people: answers on the local socket, events for those who watch, the log.
 #include <fmt/core.h>
 
+#include <algorithm>
+
 #include "active_daemon.hpp"
 #include "body_map/vitruvian_grid.hpp"
 #include "body_map_json.hpp"
@@ -69,6 +71,19 @@ Json picture_problem(FrameVerdict verdict) {
   return {};
 }
 
+Json wearer_problem(const ConnectionStatus& wearer, bool stopped_here) {
+  if (wearer.stopped_by_peer) return peer_stop_problem_json(wearer);
+  if (!wearer.peer.alive || !wearer.told) return {};
+  const SideStatus& told = *wearer.told;
+  if (told.stopped && !stopped_here) {
+    return problem_json(
+        wearer.name() + " is stopped: " + told.reason,
+        "whoever stopped it runs `telehug resume`; this side, too, may have, before it was started anew");
+  }
+  if (told.ready || told.stopped) return {};
+  return problem_json(wearer.name() + " is not ready: " + told.reason, "see `telehug status` on the other PC");
+}
+
 // A face that is held for a moment is no problem yet.
 bool no_face(const FaceState& face) {
   return face.map.version == 0 && !face.problem.empty();
@@ -129,14 +144,9 @@ Json ActiveDaemon::sending_json(const TouchThreadState& state) const {
   return sending;
 }
 
-std::optional<SideStatus> ActiveDaemon::peer_told() const {
-  const std::lock_guard lock(words_mutex_);
-  return peer_status_;
-}
-
-Json ActiveDaemon::problems(const TouchThreadState& state, const FaceState& face) const {
+Json ActiveDaemon::problems(const TouchThreadState& state, const FaceState& face,
+                            const std::vector<ConnectionStatus>& connections) const {
   Json list = Json::array();
-  const auto told = peer_told();
   {
     const std::lock_guard lock(words_mutex_);
     if (!rig_problem_.empty())
@@ -147,15 +157,13 @@ Json ActiveDaemon::problems(const TouchThreadState& state, const FaceState& face
   }
   if (!face.remark.empty()) list.push_back(problem_json(face.remark, "nothing needs to be done: all works"));
   if (stop_.stopped()) list.push_back(problem_json("stopped here: " + stop_.reason(), "run `telehug resume`"));
-  if (peer_.stopped_by_peer()) list.push_back(peer_stop_problem_json(told));
-  if (!state.peer.alive) {
+  for (const std::string& pair : left_out_)
+    list.push_back(problem_json(pair, "the other pairs work; start telehug-active again when it is mended"));
+  for (const ConnectionStatus& wearer : connections)
+    if (const Json problem = wearer_problem(wearer, stop_.stopped()); !problem.is_null()) list.push_back(problem);
+  if (!any_alive(connections)) {
     list.push_back(
         problem_json("no peer is connected", "start telehug-passive on the other PC; domain and partition must agree"));
-  } else if (told && told->stopped && !stop_.stopped() && !peer_.stopped_by_peer()) {
-    list.push_back(problem_json("the other side still holds to a stop of this one", "run `telehug resume`"));
-  } else if (told && !told->ready && !told->stopped) {
-    list.push_back(
-        problem_json("the other side is not ready: " + told->reason, "see `telehug status` on the other PC"));
   }
   if (state.camera_lost) list.push_back(problem_json(state.camera_problem, "plug the camera in, or correct [camera]"));
   if (state.camera_drift == DriftState::moved || state.camera_drift == DriftState::unseen) {
@@ -187,7 +195,11 @@ Json ActiveDaemon::status() const {
     state = state_;
   }
   const FaceState face = state.face ? state.face->state() : FaceState{};
-  const bool stopped = stop_.stopped() || peer_.stopped_by_peer();
+  const auto connected = connections();
+  const bool peers_stopped =
+      !connected.empty() && std::ranges::all_of(connected, [](const auto& wearer) { return wearer.stopped_by_peer; });
+  const bool stopped = stop_.stopped() || peers_stopped;
+  const bool alive = any_alive(connected);
   const bool fault = state.camera_lost || state.camera_drift == DriftState::moved ||
                      !picture_problem(state.picture).is_null() || !state.face || no_face(face);
 
@@ -196,10 +208,9 @@ Json ActiveDaemon::status() const {
   counters["touches_with_old_map"] = state.nobody.map_too_old;
   counters["touches_outside_grid"] = state.nobody.outside_grid;
   counters["touches_withheld"] = state.withheld;
-  counters["peer_losses"] = state.peer.losses;
-  counters["messages_dropped"] = peer_.dropped() + traffic_.dropped();
+  count_connections(counters, connected);
 
-  const char* open_why = state.camera_open      ? state.peer.alive ? "a peer is connected" : "this PC uses the touches"
+  const char* open_why = state.camera_open      ? alive ? "a peer is connected" : "this PC uses the touches"
                          : state.recording_over ? "the recording is over"
                          : state.camera_lost    ? "it can't be used"
                          : stopped              ? "stopped"
@@ -209,13 +220,11 @@ Json ActiveDaemon::status() const {
                  {"version", version},
                  {"session", session_},
                  {"uptime_s", std::chrono::duration<double>(clock_.now() - started_).count()},
-                 {"state", stopped             ? "stopped"
-                           : fault             ? "fault"
-                           : !state.peer.alive ? "waiting"
-                                               : "ok"},
-                 {"problems", problems(state, face)},
-                 {"peer", peer_json(state.peer, peer_told())},
-                 {"link", link_keeper_.status()},
+                 {"state", stopped  ? "stopped"
+                           : fault  ? "fault"
+                           : !alive ? "waiting"
+                                    : "ok"},
+                 {"problems", problems(state, face, connected)},
                  {"camera", {{"name", camera_name_}, {"open", state.camera_open}, {"why", open_why}}},
                  {"screen", {{"name", face.screen}, {"open", face.open}}},
                  {"face",
@@ -229,7 +238,7 @@ Json ActiveDaemon::status() const {
                  {"detector", {{"name", state.detector}, {"model", state.model}}},
                  {"counters", counters},
                  {"latency_ms", metrics_.latencies_json()}};
-  if (membership_.pair) answer["pair"] = pair_json(*membership_.pair);
+  add_connections(answer, connected);
   if (!state.camera_setup.empty()) answer["camera"]["setup"] = state.camera_setup;
   if (face.map.version != 0 && face.scale) answer["face"]["places_px"] = body_map_json(face.map, *face.scale);
   for (const LocalTouchState& output : local_touch_.states())
@@ -293,10 +302,14 @@ void ActiveDaemon::tell_watchers() {
     event["side"] = "active";
     control_->broadcast(std::move(event));
   }
-  Felt felt;
-  while (felt_.pop(felt)) {
-    touched_box_.felt(felt);
-    control_->broadcast(felt_json(felt));
+  for (const auto& wearer : wearers_.all()) {
+    Felt felt;
+    while (wearer->felt.pop(felt)) {
+      touched_box_.felt(felt);
+      Json event = felt_json(felt);
+      if (wearer->membership().pair) event["wearer"] = wearer->name();
+      control_->broadcast(std::move(event));
+    }
   }
 
   TouchThreadState state;
@@ -310,7 +323,6 @@ void ActiveDaemon::tell_watchers() {
   told_recording_over_ = state.recording_over;
   const FaceState face = state.face ? state.face->state() : FaceState{};
   show_touched_box(face, state.face.get());
-  say_peer_.say(spdlog::level::info, state.peer.alive ? "peer connected" : "no peer");
   say_camera_.say(state.camera_lost ? spdlog::level::warn : spdlog::level::info, state.camera_lost
                                                                                      ? state.camera_problem
                                                                                  : state.camera_open ? "camera open"

@@ -44,8 +44,8 @@ ExitCode run(const Options& options) {
   const auto config = load_passive_config(sources);
   if (!config) return fail(ExitCode::config, config.error().message);
   set_up_log(config->log.level);
-  auto member = membership(config->peer, Side::passive, wall_time());
-  if (!member) return fail(ExitCode::config, member.error().message);
+  auto found = memberships(config->peer, Side::passive, wall_time());
+  if (!found) return fail(ExitCode::config, found.error().message);
   auto profile = load_jacket_profile(jacket_profile_file(config->jacket));
   if (!profile) return fail(ExitCode::config, profile.error().message);
   LinkOptions link_options;
@@ -54,7 +54,7 @@ ExitCode run(const Options& options) {
   if (!link) return fail(ExitCode::device, link.error().message);
   const SteadyClock clock;
   try {
-    PassiveDaemon daemon(*config, *std::move(member), *std::move(profile), *std::move(link), clock);
+    PassiveDaemon daemon(*config, *std::move(found), *std::move(profile), *std::move(link), clock);
     return daemon.run(signals);
   } catch (const AlreadyRunning& running) {
     return fail(ExitCode::already_running, running.what());

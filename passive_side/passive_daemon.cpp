@@ -23,89 +23,101 @@ SafetyLimits safety_limits(const SafetyConfig& config) {
 
 }  // namespace
 
-PassiveDaemon::PassiveDaemon(const PassiveConfig& config, Membership membership, JacketProfile profile,
+PassiveDaemon::PassiveDaemon(const PassiveConfig& config, Memberships memberships, JacketProfile profile,
                              std::unique_ptr<JacketLink> link, const Clock& clock)
     : config_(config),
-      membership_(std::move(membership)),
+      left_out_(std::move(memberships.left_out)),
       clock_(clock),
       started_(clock.now()),
       session_(new_session_id()),
       profile_(std::move(profile)),
       safety_(std::move(link), profile_, safety_limits(config.safety)),
-      pipeline_(profile_, safety_, std::chrono::milliseconds(config.safety.drive_ms), session_, clock_, metrics_),
+      turn_(config.jacket.several_senders == "exclusive"),
       events_received_(metrics_.counter("events_received")),
       events_replaced_(metrics_.counter("events_replaced_by_newer")),
       events_unvouched_(metrics_.counter("events_without_heartbeat")),
       total_latency_(metrics_.latency("event_to_link")),
-      link_keeper_(membership_.dds, clock),
-      peer_(link_keeper_.participant(), Side::passive, session_,
-            std::chrono::milliseconds(config.safety.heartbeat_timeout_ms), clock),
-      traffic_([this](const TouchEvent& event) {
-        events_received_.add();
-        const bool replaced = newest_event_.put({event, clock_.now()});
-        if (replaced) events_replaced_.add();
-      }),
+      senders_(PairsWatch(config.peer, Side::passive, clock),
+               [this](Membership membership, const Senders::List& others) {
+                 return connect(std::move(membership), others);
+               }),
       control_(std::make_unique<ControlServer>(control_options(config.control, Side::passive))) {
   answer_commands();
-  traffic_.connect(link_keeper_.participant());
+  senders_.open(std::move(memberships.members));
 }
 
 PassiveDaemon::~PassiveDaemon() {
   end_thread();
-  traffic_.disconnect();
-  peer_.disconnect();
+}
+
+std::shared_ptr<ConnectedSender> PassiveDaemon::connect(Membership membership, const Senders::List& others) {
+  SenderNumber number = 0;
+  while (std::ranges::find(others, number, [](const auto& sender) { return sender->number; }) != others.end())
+    ++number;
+  PassivePipeline pipeline(number, profile_, safety_, turn_, std::chrono::milliseconds(config_.safety.drive_ms),
+                           session_, clock_, metrics_);
+  return std::make_shared<ConnectedSender>(number, std::move(membership), session_,
+                                           std::chrono::milliseconds(config_.safety.heartbeat_timeout_ms),
+                                           std::move(pipeline), clock_, [this](bool replaced) {
+                                             events_received_.add();
+                                             if (replaced) events_replaced_.add();
+                                             bell_.put(true);
+                                           });
 }
 
 ExitCode PassiveDaemon::run(Signals& signals) {
   control_->start();
   drive_thread_ = std::thread([this] { drive_loop(); });
   notifier_.ready();
-  spdlog::info("telehug-passive {} runs; jacket: {} on {}; {}", version, profile_.name, config_.jacket.link,
-               describe(membership_));
+  spdlog::info("telehug-passive {} runs; jacket: {} on {}", version, profile_.name, config_.jacket.link);
+  for (const auto& sender : senders_.all())
+    spdlog::info("{}", describe(sender->membership()));
+  for (const std::string& pair : left_out_)
+    spdlog::error("{}", pair);
   for (const std::string& note : profile_.notes)
     spdlog::info("{}", note);
-  std::optional<std::string> over;
+  bool paired = true;
   while (signals.wait(housekeeping_round) != SignalRequest::stop) {
-    over = pair_over(membership_, wall_time());
-    if (over) break;
+    paired = follow_pairs();
+    if (!paired) break;
     tell_watchers();
-    tell_peer();
-    keep_link();
+    keep_connections();
   }
   notifier_.stopping();
   end_thread();
-  if (over) spdlog::error("{}", *over);
   spdlog::info("telehug-passive ends; the jacket is off");
-  return over ? ExitCode::pair_ended : ExitCode::ok;
+  return paired ? ExitCode::ok : ExitCode::pair_ended;
+}
+
+bool PassiveDaemon::follow_pairs() {
+  return senders_.follow_pairs(wall_time(), [this](ConnectedSender& sender, const std::string& why) {
+    spdlog::error("{}", why);
+    // A stop outlives whoever said it.
+    if (sender.connection.stopped_by_peer() && !stop_.stopped())
+      stop_.stop({{"reason", sender.name() + " had stopped everything before the pair ended"}});
+  });
 }
 
 void PassiveDaemon::end_thread() {
   ending_ = true;
   if (drive_thread_.joinable()) drive_thread_.join();
   // The queue's own destructor (Boost 1.74) does not destroy what it holds.
-  felt_.consume_all([](const Felt&) {});
+  felt_.consume_all([](const GivenAnswer&) {});
+  senders_.close();
 }
 
 // --- drive thread ---
 
 void PassiveDaemon::drive_loop() {
   while (!ending_) {
-    const auto arrival = newest_event_.wait_and_take(clock_.now() + drive_round);
+    bell_.wait_and_take(clock_.now() + drive_round);
+    adopt_senders();
     // The safety stage takes a time that goes back for a fault: each call gets the present one.
-    hear_peer(clock_.now());
+    for (const auto& sender : senders_.adopted())
+      hear(*sender, clock_.now());
     follow_stops(clock_.now());
-    // Only the sender whose heartbeats are heard may touch: another's would vouch for it.
-    const bool known_sender = arrival && arrival->event.session == peer_.peer_session();
-    if (arrival && !known_sender) events_unvouched_.add();
-    if (known_sender) {
-      for (const Felt& felt : pipeline_.process(arrival->event, arrival->time)) {
-        traffic_.write(felt);
-        own_state_.last_felt = felt;
-        felt_.push(felt);
-      }
-      own_state_.last_gesture = pipeline_.last_gesture();
-      total_latency_.record(clock_.now() - arrival->time);
-    }
+    for (const auto& sender : senders_.adopted())
+      process_newest_event(*sender);
     const Timestamp now = clock_.now();
     safety_.tick(now);
     tell_running(now);
@@ -115,23 +127,52 @@ void PassiveDaemon::drive_loop() {
   safety_.stop("telehug-passive ends", clock_.now());
 }
 
-void PassiveDaemon::hear_peer(Timestamp now) {
-  const auto heard = peer_.serve(now);
+void PassiveDaemon::adopt_senders() {
+  if (!senders_.adopt()) return;
+  const auto before = std::exchange(driven_, {});
+  for (const auto& sender : senders_.adopted())
+    driven_[sender->number] = true;
+  for (SenderNumber number = 0; number < max_senders; ++number)
+    if (before[number] && !driven_[number]) safety_.forget(number, clock_.now());
+}
+
+void PassiveDaemon::hear(ConnectedSender& sender, Timestamp now) {
+  const auto heard = sender.connection.serve(now);
   if (!heard) return;
-  pipeline_.observe(heard->heartbeat, heard->time);
+  sender.pipeline.observe(heard->heartbeat, heard->time);
   // One that has waited here while this thread was held up vouches for nothing any more.
-  if (now - heard->time < oldest_heartbeat) safety_.on_heartbeat(now);
+  if (now - heard->time < oldest_heartbeat) safety_.on_heartbeat(sender.number, now);
+}
+
+void PassiveDaemon::process_newest_event(ConnectedSender& sender) {
+  const auto arrival = sender.newest_event.take();
+  if (!arrival) return;
+  // Only the session whose heartbeats are heard may touch: another's would vouch for it.
+  if (arrival->event.session != sender.connection.peer_session()) {
+    events_unvouched_.add();
+    return;
+  }
+  for (const Felt& felt : sender.pipeline.process(arrival->event, arrival->time)) {
+    sender.connection.write(felt);
+    own_state_.last_felt = felt;
+    felt_.push({felt, sender.number});
+  }
+  own_state_.last_gesture = sender.pipeline.last_gesture();
+  total_latency_.record(clock_.now() - arrival->time);
 }
 
 void PassiveDaemon::follow_stops(Timestamp now) {
   const bool own = stop_.stopped();
-  const bool stop = own || peer_.stopped_by_peer();
+  const auto& senders = senders_.adopted();
+  const auto stopper =
+      std::ranges::find_if(senders, [](const auto& sender) { return sender->connection.stopped_by_peer(); });
+  const bool stop = own || stopper != senders.end();
   if (stop == safety_.stopped()) return;
   if (!stop) {
     safety_.resume();
     return;
   }
-  safety_.stop(own ? stop_.reason() : "the other side has stopped everything", now);
+  safety_.stop(own ? stop_.reason() : (*stopper)->name() + " has stopped everything", now);
 }
 
 void PassiveDaemon::tell_running(Timestamp now) {
@@ -148,7 +189,8 @@ void PassiveDaemon::tell_state(Timestamp now) {
   told_state_ = now;
   own_state_.link = safety_.link_status();
   own_state_.safety = safety_.counters();
-  own_state_.peer = peer_.state(now);
+  for (const auto& sender : senders_.adopted())
+    sender->connection.tell_state(now);
   own_state_.stopped = safety_.stopped();
   own_state_.stop_reason = safety_.stop_reason();
   own_state_.running.assign(told_running_.begin(), told_running_.end());
@@ -162,12 +204,14 @@ DriveThreadState PassiveDaemon::state() const {
   return state_;
 }
 
-void PassiveDaemon::tell_peer() {
-  stop_.tell(peer_);
-  if (auto peer_status = peer_.take_peer_status()) {
-    const std::lock_guard lock(words_mutex_);
-    peer_status_ = *std::move(peer_status);
-  }
+std::vector<ConnectionStatus> PassiveDaemon::connections() const {
+  std::vector<ConnectionStatus> connections;
+  for (const auto& sender : senders_.all())
+    connections.push_back(sender->connection.status());
+  return connections;
+}
+
+void PassiveDaemon::keep_connections() {
   const DriveThreadState now = state();
   SideStatus own;
   own.session = session_;
@@ -179,11 +223,8 @@ void PassiveDaemon::tell_peer() {
                : now.stopped   ? now.stop_reason
                : own.ready     ? ""
                                : "no jacket answers: " + now.link.problem;
-  peer_.tell(own);
-}
-
-void PassiveDaemon::keep_link() {
-  link_keeper_.serve(state().peer, LinkKeeper::endpoints(peer_, traffic_));
+  for (const auto& sender : senders_.all())
+    sender->connection.keep(own, stop_);
 }
 
 }  // namespace telehug

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <atomic>
 #include <boost/lockfree/spsc_queue.hpp>
 #include <memory>
@@ -13,13 +14,11 @@
 #include "common/latest_slot.hpp"
 #include "common/version.hpp"
 #include "config/config.hpp"
-#include "daemon/link_keeper.hpp"
-#include "daemon/membership.hpp"
+#include "connected_sender.hpp"
+#include "daemon/connections.hpp"
 #include "daemon/stop_switch.hpp"
 #include "jacket/jacket_profile.hpp"
 #include "passive_pipeline.hpp"
-#include "peer_link/peer_link.hpp"
-#include "peer_link/traffic.hpp"
 #include "safety/safety_stage.hpp"
 #include "service/control_server.hpp"
 #include "service/exit_code.hpp"
@@ -34,7 +33,6 @@ namespace telehug {
 struct DriveThreadState {
   LinkStatus link;
   SafetyCounters safety;
-  PeerState peer;
   bool stopped = false;
   std::string stop_reason;
   std::vector<std::uint8_t> running;  // ids of actuators
@@ -48,11 +46,18 @@ struct RunningChange {
   boost::container::static_vector<std::uint8_t, max_actuators> actuators;
 };
 
-// The child's PC: one thread from the touch event to the jacket, the calling one for everything that may take its time.
+// An answer, and to whom it was given.
+struct GivenAnswer {
+  Felt felt;
+  SenderNumber sender = 0;
+};
+
+// The child's PC: one thread from the touch events to the jacket, the calling one for everything that may take its
+// time. Everyone whom the wearer has granted a pair may touch, each through a connection of their own.
 class PassiveDaemon {
  public:
   // Throws AlreadyRunning, std::runtime_error or std::invalid_argument with a sentence for a person.
-  PassiveDaemon(const PassiveConfig& config, Membership membership, JacketProfile profile,
+  PassiveDaemon(const PassiveConfig& config, Memberships memberships, JacketProfile profile,
                 std::unique_ptr<JacketLink> link, const Clock& clock);
   ~PassiveDaemon();
   PassiveDaemon(const PassiveDaemon&) = delete;
@@ -62,27 +67,32 @@ class PassiveDaemon {
   ExitCode run(Signals& signals);
 
  private:
+  using Senders = Connections<ConnectedSender>;
+
+  [[nodiscard]] std::shared_ptr<ConnectedSender> connect(Membership membership, const Senders::List& others);
   void end_thread();
 
   // Drive thread
   void drive_loop();
-  void hear_peer(Timestamp now);
+  void adopt_senders();
+  void hear(ConnectedSender& sender, Timestamp now);
+  void process_newest_event(ConnectedSender& sender);
   void follow_stops(Timestamp now);
   void tell_running(Timestamp now);
   void tell_state(Timestamp now);
 
   // Housekeeping
+  [[nodiscard]] bool follow_pairs();
   void tell_watchers();
-  void tell_peer();
-  void keep_link();
+  void keep_connections();
   void answer_commands();
   nlohmann::json status() const;
-  [[nodiscard]] std::optional<SideStatus> peer_told() const;
-  nlohmann::json problems(const DriveThreadState& state) const;
+  [[nodiscard]] std::vector<ConnectionStatus> connections() const;
+  nlohmann::json problems(const DriveThreadState& state, const std::vector<ConnectionStatus>& connections) const;
   [[nodiscard]] DriveThreadState state() const;
 
   PassiveConfig config_;
-  const Membership membership_;
+  const std::vector<std::string> left_out_;  // pairs that could not be used at the start, and why
   const Clock& clock_;
   Timestamp started_;
   SessionId session_;
@@ -90,11 +100,12 @@ class PassiveDaemon {
   Notifier notifier_;
   const JacketProfile profile_;
   SafetyStage safety_;
-  PassivePipeline pipeline_;
+  SenderTurn turn_;
 
   // Drive thread
   Timestamp told_state_;
   DriveThreadState own_state_;
+  std::array<bool, max_senders> driven_{};  // the numbers of those that are connected
   boost::container::static_vector<std::uint8_t, max_actuators> told_running_;
   Counter& events_received_;
   Counter& events_replaced_;
@@ -102,27 +113,18 @@ class PassiveDaemon {
   LatencyHistogram& total_latency_;
 
   // Between the threads
-  struct Arrival {
-    TouchEvent event;
-    Timestamp time;
-  };
-  LatestSlot<Arrival> newest_event_;
+  LatestSlot<bool> bell_;  // rung after every event that came
   StopSwitch stop_;
   std::atomic<bool> ending_ = false;
   mutable std::mutex state_mutex_;
   DriveThreadState state_;
-  boost::lockfree::spsc_queue<Felt, boost::lockfree::capacity<1024>> felt_;
+  boost::lockfree::spsc_queue<GivenAnswer, boost::lockfree::capacity<1024>> felt_;
   boost::lockfree::spsc_queue<RunningChange, boost::lockfree::capacity<1024>> running_;
 
   // Housekeeping
-  mutable std::mutex words_mutex_;  // guards the next, which the control thread reads
-  std::optional<SideStatus> peer_status_;
   SayOnChange say_jacket_;
-  SayOnChange say_peer_;
 
-  LinkKeeper link_keeper_;
-  PeerLink peer_;
-  Traffic<Felt, TouchEvent> traffic_;
+  Senders senders_;
   std::unique_ptr<ControlServer> control_;
   std::thread drive_thread_;
 };

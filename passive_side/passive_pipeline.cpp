@@ -5,10 +5,13 @@
 
 namespace telehug {
 
-PassivePipeline::PassivePipeline(const JacketProfile& profile, SafetyStage& safety, Duration drive_duration,
-                                 const SessionId& session, const Clock& clock, MetricsRegistry& metrics)
-    : profile_(profile),
+PassivePipeline::PassivePipeline(SenderNumber sender, const JacketProfile& profile, SafetyStage& safety,
+                                 SenderTurn& turn, Duration drive_duration, const SessionId& session,
+                                 const Clock& clock, MetricsRegistry& metrics)
+    : sender_(sender),
+      profile_(profile),
       safety_(safety),
+      turn_(turn),
       drive_duration_(drive_duration),
       session_(session),
       clock_(clock),
@@ -27,18 +30,20 @@ const FeltAnswers& PassivePipeline::process(const TouchEvent& event, Timestamp r
   const OrderedTouch* touch = order_.accept(event);
   const bool stale = touch != nullptr && staleness_.is_stale(event, received);
   const Timestamp ordered = clock_.now();
-  if (touch != nullptr && touch->new_session) {
-    plan_ = {};
-    known_.clear();
-    safety_.all_off(ordered);
-  }
+  if (touch != nullptr && touch->new_session) forget_touches(ordered);
+  const bool touches = touch != nullptr && !(event.contacts.empty() && touch->transitions.empty());
+  const bool its_turn = !stale && turn_.take(sender_, touches, ordered);
   if (touch != nullptr && stale) refuse(FeltOutcome::stale, *touch, received);
-  if (touch != nullptr && !stale) {
+  if (touch != nullptr && !stale && !its_turn) {
+    forget_touches(ordered);
+    refuse(FeltOutcome::another_sender, *touch, received);
+  }
+  if (touch != nullptr && its_turn) {
     note_gesture(*touch);
     plan_ = touch_to_drives(event, {touch->transitions.data(), touch->transitions.size()}, profile_, plan_, ordered,
                             drive_duration_);
     const Timestamp planned = clock_.now();
-    const SafetyVerdict verdict = safety_.apply(plan_.drives, planned);
+    const SafetyVerdict verdict = safety_.apply(sender_, plan_.drives, planned);
     answer(verdict, event, received);
     plan_latency_.record(planned - ordered);
     drive_latency_.record(clock_.now() - planned);
@@ -46,6 +51,12 @@ const FeltAnswers& PassivePipeline::process(const TouchEvent& event, Timestamp r
   order_latency_.record(ordered - received);
   tell_counters();
   return answers_;
+}
+
+void PassivePipeline::forget_touches(Timestamp now) {
+  plan_ = {};
+  known_.clear();
+  safety_.all_off(sender_, now);
 }
 
 void PassivePipeline::note_gesture(const OrderedTouch& touch) {
@@ -112,14 +123,18 @@ bool PassivePipeline::is_news(const ContactAnswer& answer, FeltOutcome outcome) 
   return true;
 }
 
+// The counters are those of all senders together: what is new is added. (Lost ones become fewer when one comes late;
+// unsigned numbers add that up as well.)
 void PassivePipeline::tell_counters() {
   const TouchOrderCounters& order = order_.counters();
-  accepted_.set(order.accepted);
-  lost_.set(order.lost);
-  doubled_.set(order.duplicates);
-  overtaken_.set(order.overtaken);
-  recovered_.set(order.recovered);
-  stale_.set(staleness_.stale_count());
+  accepted_.add(order.accepted - told_order_.accepted);
+  lost_.add(order.lost - told_order_.lost);
+  doubled_.add(order.duplicates - told_order_.duplicates);
+  overtaken_.add(order.overtaken - told_order_.overtaken);
+  recovered_.add(order.recovered - told_order_.recovered);
+  stale_.add(staleness_.stale_count() - told_stale_);
+  told_order_ = order;
+  told_stale_ = staleness_.stale_count();
 }
 
 }  // namespace telehug

@@ -10,6 +10,7 @@
 #include "jacket/touch_to_drives.hpp"
 #include "safety/safety_stage.hpp"
 #include "service/metrics.hpp"
+#include "subscribe/sender_turn.hpp"
 #include "subscribe/staleness.hpp"
 #include "subscribe/touch_order.hpp"
 
@@ -17,13 +18,13 @@ namespace telehug {
 
 using FeltAnswers = boost::container::static_vector<Felt, max_contacts + max_transitions>;
 
-// From a touch event to the bytes for the jacket: every stage of the passive side but the two wires. One thread uses
-// it.
+// From a touch event of one sender to the bytes for the jacket: every stage of the passive side but the two wires. One
+// thread uses it, and those of the other senders.
 class PassivePipeline {
  public:
-  // `profile`, `safety`, `clock`, `metrics` outlive it.
-  PassivePipeline(const JacketProfile& profile, SafetyStage& safety, Duration drive_duration, const SessionId& session,
-                  const Clock& clock, MetricsRegistry& metrics);
+  // `profile`, `safety`, `turn`, `clock`, `metrics` outlive it; all senders share them.
+  PassivePipeline(SenderNumber sender, const JacketProfile& profile, SafetyStage& safety, SenderTurn& turn,
+                  Duration drive_duration, const SessionId& session, const Clock& clock, MetricsRegistry& metrics);
 
   // An event that came at `received`, not after the clock's present time. Returns what to answer the sender: one for
   // each contact that went down or up or is felt differently than at the event before. Valid until the next call.
@@ -42,10 +43,13 @@ class PassivePipeline {
   void answer(const SafetyVerdict& verdict, const TouchEvent& event, Timestamp received);
   void refuse(FeltOutcome outcome, const OrderedTouch& touch, Timestamp received);
   [[nodiscard]] bool is_news(const ContactAnswer& answer, FeltOutcome outcome);
+  void forget_touches(Timestamp now);
   void tell_counters();
 
+  const SenderNumber sender_;
   const JacketProfile& profile_;
   SafetyStage& safety_;
+  SenderTurn& turn_;
   Duration drive_duration_;
   SessionId session_;
   const Clock& clock_;
@@ -61,6 +65,8 @@ class PassivePipeline {
     FeltOutcome outcome = FeltOutcome::driven;
   };
   boost::container::static_vector<Known, max_contacts> known_;
+  TouchOrderCounters told_order_;
+  std::uint64_t told_stale_ = 0;
 
   Counter& accepted_;
   Counter& lost_;

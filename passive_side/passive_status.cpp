@@ -43,20 +43,18 @@ void PassiveDaemon::answer_commands() {
   stop_.serve(*control_);
 }
 
-std::optional<SideStatus> PassiveDaemon::peer_told() const {
-  const std::lock_guard lock(words_mutex_);
-  return peer_status_;
-}
-
-Json PassiveDaemon::problems(const DriveThreadState& now) const {
+Json PassiveDaemon::problems(const DriveThreadState& now, const std::vector<ConnectionStatus>& connections) const {
   Json list = Json::array();
   if (now.link.state != LinkState::armed) {
     list.push_back(problem_json(fmt::format("no jacket answers on {}: {}", now.link.device, now.link.problem),
                                 "check its cable and power, and [jacket] link in the configuration"));
   }
   if (stop_.stopped()) list.push_back(problem_json("stopped here: " + stop_.reason(), "run `telehug resume`"));
-  if (peer_.stopped_by_peer()) list.push_back(peer_stop_problem_json(peer_told()));
-  if (!now.peer.alive) {
+  for (const ConnectionStatus& connection : connections)
+    if (connection.stopped_by_peer) list.push_back(peer_stop_problem_json(connection));
+  for (const std::string& pair : left_out_)
+    list.push_back(problem_json(pair, "the other pairs work; start telehug-passive again when it is mended"));
+  if (!any_alive(connections)) {
     list.push_back(
         problem_json("no peer is connected", "start telehug-active on the other PC; domain and partition must agree"));
   }
@@ -65,10 +63,10 @@ Json PassiveDaemon::problems(const DriveThreadState& now) const {
 
 Json PassiveDaemon::status() const {
   const DriveThreadState now = state();
+  const auto connected = connections();
   const bool armed = now.link.state == LinkState::armed;
   Json counters = metrics_.counters_json();
-  counters["peer_losses"] = now.peer.losses;
-  counters["messages_dropped"] = peer_.dropped() + traffic_.dropped();
+  count_connections(counters, connected);
   const SafetyCounters& safety = now.safety;
   counters["safety_accepted"] = safety.drives_accepted;
   counters["safety_refused_unknown_actuator"] = safety.refused_unknown_actuator;
@@ -96,13 +94,11 @@ Json PassiveDaemon::status() const {
                  {"version", version},
                  {"session", session_},
                  {"uptime_s", std::chrono::duration<double>(clock_.now() - started_).count()},
-                 {"state", now.stopped       ? "stopped"
-                           : !armed          ? "fault"
-                           : !now.peer.alive ? "waiting"
-                                             : "ok"},
-                 {"problems", problems(now)},
-                 {"peer", peer_json(now.peer, peer_told())},
-                 {"link", link_keeper_.status()},
+                 {"state", now.stopped             ? "stopped"
+                           : !armed                ? "fault"
+                           : !any_alive(connected) ? "waiting"
+                                                   : "ok"},
+                 {"problems", problems(now, connected)},
                  {"jacket",
                   {{"name", profile_.name},
                    {"device", now.link.device},
@@ -112,7 +108,7 @@ Json PassiveDaemon::status() const {
                    {"running", id_list(now.running)}}},
                  {"counters", counters},
                  {"latency_ms", metrics_.latencies_json()}};
-  if (membership_.pair) answer["pair"] = pair_json(*membership_.pair);
+  add_connections(answer, connected);
   if (now.last_felt) {
     answer["last_touch"] = felt_json(*now.last_felt);
     answer["last_touch"]["gesture"] = name_of(now.last_gesture);
@@ -121,12 +117,15 @@ Json PassiveDaemon::status() const {
 }
 
 void PassiveDaemon::tell_watchers() {
-  Felt felt;
-  while (felt_.pop(felt)) {
+  const auto senders = senders_.all();
+  GivenAnswer answer;
+  while (felt_.pop(answer)) {
     if (!control_->has_watchers()) continue;
-    Json event = felt_json(felt);
+    Json event = felt_json(answer.felt);
     event["event"] = "felt";
     event["side"] = "passive";
+    const auto of = std::ranges::find(senders, answer.sender, [](const auto& sender) { return sender->number; });
+    if (of != senders.end() && (*of)->membership().pair) event["sender"] = (*of)->name();
     control_->broadcast(std::move(event));
   }
   RunningChange change;
@@ -137,7 +136,6 @@ void PassiveDaemon::tell_watchers() {
                          {"actuators", id_list(change.actuators)}});
   }
   const DriveThreadState now = state();
-  say_peer_.say(spdlog::level::info, now.peer.alive ? "peer connected" : "no peer");
   if (now.link.state == LinkState::armed) {
     say_jacket_.say(spdlog::level::info, fmt::format("jacket ready: {}, firmware {}, {} motors", now.link.device,
                                                      now.link.firmware_version, now.link.motor_count));

@@ -21,8 +21,8 @@ ExitCode run(const Options& options) {
   if (!config) return fail(ExitCode::config, config.error());
   if (!options.source.empty()) config->camera.source = options.source;
   set_up_log(config->log.level);
-  auto member = membership(config->peer, Side::active, wall_time());
-  if (!member) return fail(ExitCode::config, member.error());
+  auto found = memberships(config->peer, Side::active, wall_time());
+  if (!found) return fail(ExitCode::config, found.error());
 
   const SteadyClock clock;
   CaptureSettings capture = capture_settings(*config);
@@ -36,7 +36,7 @@ ExitCode run(const Options& options) {
   auto camera = make_frame_source(config->camera.source, capture, clock);
   if (!camera) return fail(ExitCode::config, camera.error());
   try {
-    ActiveDaemon daemon(*config, *std::move(member), *std::move(camera), clock);
+    ActiveDaemon daemon(*config, *std::move(found), *std::move(camera), clock);
     return daemon.run(signals);
   } catch (const AlreadyRunning& running) {
     return fail(ExitCode::already_running, Error{running.what()});

@@ -14,7 +14,7 @@ struct PeerConfig {
   int domain = 77;        // DDS domain
   std::string partition;  // DDS partition: pairs on one network that must not hear each other take different ones
   bool loopback_only = false;
-  std::string pair;          // id of the pair; empty: the only one
+  std::string pairs;         // read it with parse_pairs(); see memberships()
   std::string pairs_folder;  // see pairs_folder()
   std::string addresses;     // read it with parse_addresses(); only if not loopback_only
 };
@@ -97,6 +97,7 @@ struct JacketConfig {
   std::string profile;             // empty: see jacket_profile_file()
   std::string link = "simulated";  // read it with parse_jacket_link()
   int baud = 57600;
+  std::string several_senders = "merged";  // merged, exclusive
 };
 
 struct SafetyConfig {

@@ -57,12 +57,9 @@ Rows peer_rows(PeerConfig& c) {
        "",
        {},
        "true: talk only to a peer on this PC, even if paired. Without a pair the network is never used."},
-      {"peer",
-       "pair",
-       &c.pair,
-       "",
-       {},
-       "Which pair this PC speaks to, by its id (`telehug pair list`); empty: the only one."},
+      {"peer", "pairs", &c.pairs, "", parsed_by(parse_pairs),
+       "Which pairs this PC speaks to, by their ids (`telehug pair list`) with commas between them, or \"all\"; empty: "
+       "on the wearer's PC all, on a parent's the only one."},
       {"peer",
        "pairs_folder",
        &c.pairs_folder,
@@ -233,6 +230,9 @@ std::vector<Key> keys_of(PassiveConfig& c) {
       {"jacket", "link", &c.jacket.link, "", parsed_by(parse_jacket_link),
        "\"serial:PATH\", \"simulated\" (no jacket needed) or \"record:FILE\" (what would be sent)."},
       {"jacket", "baud", &c.jacket.baud, "baud", Range{9600, 1000000}, "Speed of the serial line."},
+      {"jacket", "several_senders", &c.jacket.several_senders, "", OneOf{{"merged", "exclusive"}},
+       "What is felt when several touch at once. merged: all of them, each place as strongly as the strongest of them "
+       "asks; exclusive: the one who began, until they have not touched for 2 s."},
 
       {"safety", "max_strength", &c.safety.max_strength, "", Range{0, 1}, "No motor is ever driven stronger."},
       {"safety", "drive_ms", &c.safety.drive_ms, "ms", Range{50, 250},

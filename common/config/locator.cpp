@@ -12,6 +12,21 @@
 namespace telehug {
 namespace {
 
+// Of a list with commas, without blanks around its words. Empty: no word.
+std::vector<std::string> split(std::string_view list) {
+  std::vector<std::string> words;
+  if (list.empty()) return words;
+  for (std::size_t from = 0; from <= list.size();) {
+    const std::size_t comma = std::min(list.find(',', from), list.size());
+    std::string word(list.substr(from, comma - from));
+    word.erase(0, word.find_first_not_of(' '));
+    word.erase(word.find_last_not_of(' ') + 1);
+    words.push_back(std::move(word));
+    from = comma + 1;
+  }
+  return words;
+}
+
 // What follows "scheme:" if the text begins so and anything follows.
 std::optional<std::string> after(std::string_view scheme, std::string_view text) {
   if (!text.starts_with(scheme) || text.size() == scheme.size()) return std::nullopt;
@@ -68,20 +83,24 @@ Result<std::optional<ScreenRegion>> parse_screen_region(std::string_view text) {
   return std::optional(ScreenRegion{numbers[0], numbers[1], numbers[2], numbers[3]});
 }
 
+Result<std::vector<std::string>> parse_pairs(std::string_view text) {
+  auto ids = split(text);
+  for (const std::string& id : ids) {
+    const bool is_id = id.size() == 16 && id.find_first_not_of("0123456789abcdef") == std::string::npos;
+    if (!is_id && !(id == "all" && ids.size() == 1)) {
+      return Error{fmt::format("\"{}\" is neither the id of a pair (`telehug pair list`) nor \"all\"", id)};
+    }
+  }
+  return ids;
+}
+
 Result<std::vector<std::string>> parse_addresses(std::string_view text) {
-  std::vector<std::string> addresses;
-  if (text.empty()) return addresses;
-  for (std::size_t from = 0; from <= text.size();) {
-    const std::size_t comma = std::min(text.find(',', from), text.size());
-    std::string address(text.substr(from, comma - from));
-    address.erase(0, address.find_first_not_of(' '));
-    address.erase(address.find_last_not_of(' ') + 1);
+  auto addresses = split(text);
+  for (const std::string& address : addresses) {
     in_addr parsed{};
     if (inet_pton(AF_INET, address.c_str(), &parsed) != 1) {
       return Error{fmt::format("\"{}\" is not an IPv4 address; several have commas between them", address)};
     }
-    addresses.push_back(std::move(address));
-    from = comma + 1;
   }
   return addresses;
 }

@@ -43,6 +43,9 @@ struct ScreenRegion {
 // "X,Y,WIDTH,HEIGHT" in px; empty: none.
 [[nodiscard]] Result<std::optional<ScreenRegion>> parse_screen_region(std::string_view text);
 
+// Ids of pairs with commas between them; empty: none are named. "all" is one of them.
+[[nodiscard]] Result<std::vector<std::string>> parse_pairs(std::string_view text);
+
 // IPv4 addresses with commas between them; empty: none.
 [[nodiscard]] Result<std::vector<std::string>> parse_addresses(std::string_view text);
 

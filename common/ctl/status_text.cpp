@@ -76,6 +76,7 @@ std::string problems_text(const Json& problems) {
   return text;
 }
 
+// How a peer is; after its name if it is one of several.
 std::string peer_text(const Json& peer) {
   if (!peer.is_object()) return line("peer", text_of(peer));
   std::string text = flag_at(peer, "connected") ? "connected" : "not connected";
@@ -83,8 +84,23 @@ std::string peer_text(const Json& peer) {
   text = joined(text, ": ", text_at(peer, "reason"));
   if (const std::string ms = text_at(peer, "round_trip_ms"); !ms.empty()) text += fmt::format(", round trip {} ms", ms);
   if (const std::string ms = text_at(peer, "one_way_ms"); !ms.empty()) text += fmt::format(", to here {} ms", ms);
-  return line("peer",
-              joined(text, ", ", rest_of(peer, {"connected", "stopped", "reason", "round_trip_ms", "one_way_ms"})));
+  return line("peer", joined(text_at(peer, "name"), ": ",
+                             joined(text, ", ",
+                                    rest_of(peer, {"connected", "stopped", "reason", "round_trip_ms", "one_way_ms",
+                                                   "name", "pair", "link", "session"}))));
+}
+
+// "peers" tells of all of them, "peer", "pair" and "link" of one of them.
+std::string peers_text(const Json& status) {
+  std::string text;
+  const Json* peers = part(status, "peers");
+  if (peers != nullptr && peers->is_array()) {
+    for (const Json& peer : *peers)
+      text += peer_text(peer);
+  } else if (const Json* peer = part(status, "peer")) {
+    text += peer_text(*peer);
+  }
+  return text;
 }
 
 // Camera, screen and others that are open, closed, or neither; a touch begins with what it is. Places are for programs.
@@ -125,11 +141,11 @@ std::string latencies_text(const Json& stages) {
 
 std::string status_text(const Json& status) {
   static constexpr std::array<const char*, 6> things{"camera", "screen", "face", "sending", "jacket", "last_touch"};
-  static constexpr std::array<const char*, 8> placed{"side",     "version", "uptime_s", "state",
-                                                     "problems", "peer",    "counters", "latency_ms"};
+  static constexpr std::array<const char*, 9> placed{"side", "version", "uptime_s", "state",     "problems",
+                                                     "peer", "peers",   "counters", "latency_ms"};
   std::string text = heading(status);
   if (const Json* problems = part(status, "problems")) text += problems_text(*problems);
-  if (const Json* peer = part(status, "peer")) text += peer_text(*peer);
+  text += peers_text(status);
   for (const char* name : things) {
     std::string label = name;
     std::replace(label.begin(), label.end(), '_', ' ');
@@ -138,7 +154,11 @@ std::string status_text(const Json& status) {
   if (status.is_object()) {
     for (const auto& [name, value] : status.items()) {
       const auto is = [&key = name](const char* known) { return key == known; };
-      if (std::any_of(things.begin(), things.end(), is) || std::any_of(placed.begin(), placed.end(), is)) continue;
+      const bool of_one_of_several = status.contains("peers") && (is("pair") || is("link"));
+      if (of_one_of_several || std::any_of(things.begin(), things.end(), is) ||
+          std::any_of(placed.begin(), placed.end(), is)) {
+        continue;
+      }
       text += thing_text(plain_text(name), value);
     }
   }

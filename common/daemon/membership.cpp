@@ -3,6 +3,7 @@
 
 #include <fmt/chrono.h>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 
@@ -23,48 +24,73 @@ std::string ids(const std::vector<Pair>& pairs) {
   return text;
 }
 
-Result<std::optional<Pair>> choose(const std::vector<Pair>& pairs, const std::string& wanted) {
-  if (wanted.empty()) {
-    if (pairs.empty()) return std::optional<Pair>();
-    if (pairs.size() == 1) return std::optional(pairs.front());
-    return Error{fmt::format("this PC has several pairs: say which by peer.pair: {}", ids(pairs))};
+Result<std::vector<Pair>> choose(std::vector<Pair> pairs, const std::string& wanted, Side side) {
+  if (wanted.empty() && side == Side::active && pairs.size() > 1) {
+    return Error{
+        fmt::format("this PC has several pairs: say by peer.pairs whom it touches (\"all\", or ids): {}", ids(pairs))};
   }
-  const auto found = std::find_if(pairs.begin(), pairs.end(), [&](const Pair& pair) { return pair.id == wanted; });
-  if (found != pairs.end()) return std::optional(*found);
-  return Error{
-      fmt::format("peer.pair is {}, which is no pair of this PC; there {}", wanted,
-                  pairs.empty() ? "are none: `telehug pair --help` says how to make one" : "is: " + ids(pairs))};
+  if (wanted.empty() || wanted == "all") return pairs;
+  const auto wanted_ids = parse_pairs(wanted);
+  if (!wanted_ids) return wanted_ids.error();
+  std::vector<Pair> chosen;
+  for (const std::string& id : *wanted_ids) {
+    const auto found = std::ranges::find(pairs, id, &Pair::id);
+    if (found == pairs.end()) {
+      return Error{
+          fmt::format("peer.pairs names {}, which is no pair of this PC; there {}", id,
+                      pairs.empty() ? "are none: `telehug pair --help` says how to make one" : "is: " + ids(pairs))};
+    }
+    if (std::ranges::find(chosen, id, &Pair::id) == chosen.end()) chosen.push_back(*found);
+  }
+  return chosen;
 }
 
-Error broken(const Pair& pair, const std::vector<PairingFault>& faults) {
+std::string broken(const Pair& pair, const std::vector<PairingFault>& faults) {
   std::string text = fmt::format("the pair with {} ({}) can't be used:", pair.name, pair.id);
   for (const PairingFault& fault : faults)
     text += fmt::format("\n  {}: {} To do: {}", fault.file.string(), fault.what, fault.to_do);
-  return {text};
+  return text;
 }
 
 }  // namespace
 
-Result<Membership> membership(const PeerConfig& config, Side side, WallTime now) {
-  Membership member;
-  member.dds.side = side;
-  member.dds.domain_id = static_cast<std::uint32_t>(config.domain);
-  if (!config.partition.empty()) member.dds.partition = config.partition;
+Result<Memberships> memberships(const PeerConfig& config, Side side, WallTime now) {
+  Membership unpaired;
+  unpaired.dds.side = side;
+  unpaired.dds.domain_id = static_cast<std::uint32_t>(config.domain);
+  if (!config.partition.empty()) unpaired.dds.partition = config.partition;
+  Memberships found;
   try {
     const PairStore store(pairs_folder(config, side), side);
-    const auto chosen = choose(store.list(), config.pair);
+    const auto chosen = choose(store.list(), config.pairs, side);
     if (!chosen) return chosen.error();
-    member.pair = *chosen;
-    if (!member.pair) return member;
-    if (const auto faults = store.preflight(*member.pair, now); !faults.empty()) return broken(*member.pair, faults);
+    if (chosen->empty()) return Memberships{{unpaired}, {}};
+    const auto addresses = parse_addresses(config.addresses);
+    for (const Pair& pair : *chosen) {
+      if (const auto faults = store.preflight(pair, now); !faults.empty()) {
+        found.left_out.push_back(broken(pair, faults));
+        continue;
+      }
+      Membership& member = found.members.emplace_back(unpaired);
+      member.pair = pair;
+      member.dds.security = pair.files;
+      member.dds.partition = pair.partition;
+      member.dds.loopback_only = config.loopback_only;
+      if (addresses) member.dds.peers = *addresses;
+    }
+    if (found.members.empty()) return Error{fmt::format("{}", fmt::join(found.left_out, "\n"))};
+    if (found.members.size() > max_memberships) {
+      return Error{fmt::format("one daemon serves at most {} pairs: choose by peer.pairs which of these it serves: {}",
+                               max_memberships, ids(*chosen))};
+    }
   } catch (const std::exception& problem) {
     return Error{fmt::format("the pairs of this PC can't be read: {}", problem.what())};
   }
-  member.dds.security = member.pair->files;
-  member.dds.partition = member.pair->partition;
-  member.dds.loopback_only = config.loopback_only;
-  if (auto addresses = parse_addresses(config.addresses)) member.dds.peers = *std::move(addresses);
-  return member;
+  return found;
+}
+
+bool same_pair(const Membership& a, const Membership& b) {
+  return (a.pair ? a.pair->id : "") == (b.pair ? b.pair->id : "");
 }
 
 std::optional<std::string> pair_over(const Membership& membership, WallTime now) {

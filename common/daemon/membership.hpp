@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Whom a daemon may speak to: the other PC of its pair or, without a pair, nobody beyond this PC.
+// Whom a daemon may speak to: the other PCs of its pairs or, without a pair, nobody beyond this PC.
 #pragma once
 
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "config/config.hpp"
 #include "dds/settings.hpp"
@@ -18,9 +19,22 @@ struct Membership {
   std::optional<Pair> pair;
 };
 
-// The configured pair, checked, or the only one there is. An error lists what is wrong with it: a daemon whose pair
-// is broken must not run as if it had none.
-[[nodiscard]] Result<Membership> membership(const PeerConfig& config, Side side, WallTime now);
+// So many pairs one daemon serves: SafetyStage tells as many senders apart.
+inline constexpr std::size_t max_memberships = 8;
+
+struct Memberships {
+  std::vector<Membership> members;    // at least one
+  std::vector<std::string> left_out;  // what is wrong with each pair that can't be used, and what to do
+};
+
+// The configured pairs, checked. If none are configured: on the wearer's PC all there are (who was granted a pair may
+// touch), on a parent's the only one there is (with several it must be said who is touched). Without any pair: one
+// membership, of this PC alone. A pair that can't be used is left out as long as another can; if none can, that is the
+// error: a daemon whose pair is broken must not run as if it had none.
+[[nodiscard]] Result<Memberships> memberships(const PeerConfig& config, Side side, WallTime now);
+
+// Of the same pair, or both of none.
+[[nodiscard]] bool same_pair(const Membership& a, const Membership& b);
 
 // What a running daemon must not overlook: DDS Security looks at certificates only when two sides meet. The reason why
 // the pair is over, one sentence; nothing while it holds.

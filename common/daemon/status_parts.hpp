@@ -6,7 +6,9 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
+#include <vector>
 
+#include "pairing/pairing.hpp"
 #include "peer_link/peer_link.hpp"
 
 namespace telehug {
@@ -14,10 +16,36 @@ namespace telehug {
 // What is wrong, and what the user can do about it.
 [[nodiscard]] nlohmann::json problem_json(std::string what, std::string to_do);
 
-// The peer has stopped everything.
-[[nodiscard]] nlohmann::json peer_stop_problem_json(const std::optional<SideStatus>& told);
+// For sentences: what this PC calls the other one.
+[[nodiscard]] inline std::string name_of(const std::optional<Pair>& pair) {
+  return pair ? pair->name : "the other side";
+}
 
-// `told`: what the peer last told of itself, if it has.
-[[nodiscard]] nlohmann::json peer_json(const PeerState& peer, const std::optional<SideStatus>& told);
+// One connection, as far as a status tells of it.
+struct ConnectionStatus {
+  std::optional<Pair> pair;
+  PeerState peer;
+  std::optional<SideStatus> told;  // what the peer last told of itself, if it has
+  nlohmann::json link;             // LinkKeeper's
+  bool stopped_by_peer = false;
+  std::uint64_t dropped = 0;  // messages that were malformed or out of range
+
+  [[nodiscard]] std::string name() const { return name_of(pair); }
+};
+
+// This peer has stopped everything.
+[[nodiscard]] nlohmann::json peer_stop_problem_json(const ConnectionStatus& connection);
+
+// What is known of the peer.
+[[nodiscard]] nlohmann::json peer_json(const ConnectionStatus& connection);
+
+// Adds "peer", "link" and "pair" to a status: of the first connection whose peer is there, or else the first. If there
+// are several, also "peers", with all of them.
+void add_connections(nlohmann::json& status, const std::vector<ConnectionStatus>& connections);
+
+// Adds "peer_losses" and "messages_dropped" of all of them together.
+void count_connections(nlohmann::json& counters, const std::vector<ConnectionStatus>& connections);
+
+[[nodiscard]] bool any_alive(const std::vector<ConnectionStatus>& connections);
 
 }  // namespace telehug

@@ -48,7 +48,7 @@ nlohmann::json StopSwitch::set(bool stopped, std::string reason) {
   const std::lock_guard lock(mutex_);
   reason_ = std::move(reason);
   stopped_ = stopped;
-  untold_ = true;
+  ever_set_ = true;
   return {{"stopped", stopped}};
 }
 
@@ -57,18 +57,17 @@ std::string StopSwitch::reason() const {
   return reason_;
 }
 
-void StopSwitch::tell(PeerLink& peer) {
+void StopSwitch::tell(PeerLink& peer) const {
   bool stopped = false;
   std::string reason;
   {
     const std::lock_guard lock(mutex_);
-    if (!std::exchange(untold_, false)) return;
+    if (!ever_set_) return;
     stopped = stopped_;
     reason = reason_;
   }
-  if (peer.tell_stop(stopped, reason)) return;
-  const std::lock_guard lock(mutex_);
-  untold_ = true;
+  const auto& told = peer.stop_told();
+  if (!told || told->stop != stopped || told->reason != reason) (void)peer.tell_stop(stopped, reason);
 }
 
 }  // namespace telehug

@@ -29,17 +29,17 @@ class StopSwitch {
 
   // --- housekeeping thread ---
 
-  // Tells the peer of the last stop or resume until it has left. A resume is told even if nothing was stopped here: the
+  // Tells a peer of the last stop or resume until it has left. A resume is told even if nothing was stopped here: the
   // peer may still hold the stop of an earlier run of this program.
-  void tell(PeerLink& peer);
+  void tell(PeerLink& peer) const;
 
  private:
   nlohmann::json set(bool stopped, std::string reason);
 
   std::atomic<bool> stopped_ = false;
   mutable std::mutex mutex_;
-  std::string reason_;   // guarded by mutex_
-  bool untold_ = false;  // guarded by mutex_
+  std::string reason_;     // guarded by mutex_
+  bool ever_set_ = false;  // likewise
 };
 
 }  // namespace telehug

@@ -63,6 +63,8 @@ class PeerLink {
   void tell(const SideStatus& status);
   // False if DDS refused it: tell it again.
   [[nodiscard]] bool tell_stop(bool stop, const std::string& reason);
+  // The last word that DDS took, if any.
+  [[nodiscard]] const std::optional<StopAll>& stop_told() const noexcept { return stop_told_; }
   [[nodiscard]] std::optional<SideStatus> take_peer_status() { return status_slot_.take(); }
 
   // --- any thread ---

@@ -61,7 +61,7 @@ SafetyStage::SafetyStage(std::unique_ptr<JacketLink> link, const JacketProfile& 
   check(profile);
   for (const Actuator& actuator : profile.actuators) {
     const double most = std::min(actuator.max_strength, limits_.max_strength);
-    motors_.push_back({actuator.id, actuator.channel, {actuator.min_strength, most}, 0, {}, {}});
+    motors_.push_back({actuator.id, actuator.channel, {actuator.min_strength, most}});
   }
 }
 
@@ -70,22 +70,22 @@ SafetyStage::~SafetyStage() {
   link_->poll(now_);
 }
 
-SafetyVerdict SafetyStage::apply(const Drives& drives, Timestamp now) {
+SafetyVerdict SafetyStage::apply(SenderNumber sender, const Drives& drives, Timestamp now) {
   follow_clock(now);
   if (stopped()) {
     ++counters_.refused_stopped;
     return {FeltOutcome::stopped, {}};
   }
-  if (!sender_lives(now)) {
+  if (!lives(sender, now)) {
     ++counters_.refused_no_sender;
-    turn_off(counters_.off_heartbeat_lost, now);
+    silence(sender, counters_.off_heartbeat_lost, now);
     return {FeltOutcome::stale, {}};
   }
   if (!ready_ || !armed()) return refuse_without_jacket(now);
   expire(now);
   SafetyVerdict verdict;
   for (const Drive& wanted : drives) {
-    if (!drive(wanted, now)) verdict.refused.push_back(wanted.actuator);
+    if (!drive(sender, wanted, now)) verdict.refused.push_back(wanted.actuator);
   }
   if (!drives.empty() && !send(now)) return refuse_without_jacket(now);
   if (!drives.empty() && verdict.refused.size() == drives.size()) verdict.outcome = FeltOutcome::limited;
@@ -98,32 +98,34 @@ SafetyVerdict SafetyStage::refuse_without_jacket(Timestamp now) {
   return {FeltOutcome::jacket_absent, {}};
 }
 
-// False if nothing may come of a drive that asks for something. Whatever is wrong with it, its motor is off then.
-bool SafetyStage::drive(const Drive& wanted, Timestamp now) {
+// False if nothing may come of a drive that asks for something. Whatever is wrong with it, its sender asks nothing of
+// the motor then.
+bool SafetyStage::drive(SenderNumber sender, const Drive& wanted, Timestamp now) {
   Motor* motor = find(wanted.actuator);
   if (motor == nullptr) {
     ++counters_.refused_unknown_actuator;
     return false;
   }
-  const bool was_on = motor->intensity > 0;
-  motor->intensity = 0;
+  const bool was_on = motor->runs();
+  Share& share = motor->shares[sender];
+  share.intensity = 0;
   if (!std::isfinite(wanted.strength)) {
     ++counters_.refused_not_finite;
     return false;
   }
   if (wanted.strength <= 0 || wanted.end <= now) {
-    counters_.off_ended += one_if(was_on);
+    counters_.off_ended += one_if(was_on && !motor->runs());
     return true;
   }
-  motor->intensity = motor->scale.intensity(wanted.strength);
-  if (motor->intensity == 0) {
+  share.intensity = motor->scale.intensity(wanted.strength);
+  if (share.intensity == 0) {
     ++counters_.refused_by_limit;
     return false;
   }
-  motor->end = std::min(wanted.end, now + limits_.longest_drive);
+  share.end = std::min(wanted.end, now + limits_.longest_drive);
   ++counters_.drives_accepted;
   counters_.clamped_strength += one_if(wanted.strength > 1);
-  counters_.clamped_end += one_if(motor->end < wanted.end);
+  counters_.clamped_end += one_if(share.end < wanted.end);
   return true;
 }
 
@@ -132,18 +134,18 @@ void SafetyStage::tick(Timestamp now) {
   link_->poll(now);
   follow_link(now);
   if (!armed()) return;
-  if (!sender_lives(now)) {
-    turn_off(counters_.off_heartbeat_lost, now);
-    return;
+  for (SenderNumber sender = 0; sender < max_senders; ++sender) {
+    if (!lives(sender, now)) silence(sender, counters_.off_heartbeat_lost, now);
   }
   if ((expire(now) || renewal_due(now)) && !send(now)) turn_off(counters_.off_link_lost, now);
 }
 
-void SafetyStage::on_heartbeat(Timestamp now) {
+void SafetyStage::on_heartbeat(SenderNumber sender, Timestamp now) {
   follow_clock(now);
+  if (sender >= max_senders) return;
   // What ran until now was vouched for by the last heartbeat only.
-  if (heartbeat_ && !sender_lives(now)) turn_off(counters_.off_heartbeat_lost, now);
-  heartbeat_ = now;
+  if (!lives(sender, now)) silence(sender, counters_.off_heartbeat_lost, now);
+  heartbeats_[sender] = now;
 }
 
 void SafetyStage::stop(std::string reason, Timestamp now) {
@@ -157,18 +159,40 @@ void SafetyStage::resume() {
   stop_reason_.reset();
 }
 
-void SafetyStage::all_off(Timestamp now) {
+void SafetyStage::all_off(SenderNumber sender, Timestamp now) {
   follow_clock(now);
-  counters_.off_asked += forget_drives();
-  link_->stop_all(now);
+  silence(sender, counters_.off_asked, now);
+}
+
+void SafetyStage::forget(SenderNumber sender, Timestamp now) {
+  all_off(sender, now);
+  if (sender < max_senders) heartbeats_[sender].reset();
 }
 
 boost::container::static_vector<std::uint8_t, max_actuators> SafetyStage::running() const {
   boost::container::static_vector<std::uint8_t, max_actuators> ids;
   for (const Motor& motor : motors_) {
-    if (motor.intensity > 0) ids.push_back(motor.id);
+    if (motor.runs()) ids.push_back(motor.id);
   }
   return ids;
+}
+
+bool SafetyStage::Motor::runs() const noexcept {
+  return std::ranges::any_of(shares, [](const Share& share) { return share.intensity > 0; });
+}
+
+// What the motor is to do now: the strongest wish, until its end or as long as its own sender's heartbeat vouches for.
+SafetyStage::Share SafetyStage::strongest(const Motor& motor, Timestamp now) const {
+  Share strongest;
+  for (std::size_t sender = 0; sender < max_senders; ++sender) {
+    const Share& share = motor.shares[sender];
+    const Timestamp end = std::min({share.end, vouched_until(sender), now + longest_command});
+    if (share.intensity == 0 || end <= now) continue;
+    const bool stronger = share.intensity > strongest.intensity;
+    const bool longer = share.intensity == strongest.intensity && end > strongest.end;
+    if (stronger || longer) strongest = {share.intensity, end};
+  }
+  return strongest;
 }
 
 SafetyStage::Motor* SafetyStage::find(std::uint8_t id) {
@@ -176,12 +200,12 @@ SafetyStage::Motor* SafetyStage::find(std::uint8_t id) {
   return found == motors_.end() ? nullptr : &*found;
 }
 
-// A clock that goes backwards would lengthen every drive by the jump: everything ends, and the sender has to be heard
+// A clock that goes backwards would lengthen every drive by the jump: everything ends, and every sender has to be heard
 // anew.
 void SafetyStage::follow_clock(Timestamp now) {
   if (now < now_) {
     turn_off(counters_.off_clock_jumped, now);
-    heartbeat_.reset();
+    heartbeats_.fill(std::nullopt);
     for (Motor& motor : motors_)
       motor.silent_from = now;
     sent_ = now;
@@ -203,45 +227,46 @@ void SafetyStage::follow_link(Timestamp now) {
 
 // Ends what has come to its end; true if something has.
 bool SafetyStage::expire(Timestamp now) {
-  const std::uint64_t before = counters_.off_expired;
+  bool something_ended = false;
   for (Motor& motor : motors_) {
-    if (motor.intensity == 0 || motor.end > now) continue;
-    motor.intensity = 0;
-    ++counters_.off_expired;
+    const bool ran = motor.runs();
+    for (Share& share : motor.shares) {
+      if (share.intensity == 0 || share.end > now) continue;
+      share.intensity = 0;
+      something_ended = true;
+    }
+    counters_.off_expired += one_if(ran && !motor.runs());
   }
-  return counters_.off_expired != before;
+  return something_ended;
 }
 
 bool SafetyStage::armed() const {
   return link_->status().state == LinkState::armed;
 }
 
-bool SafetyStage::sender_lives(Timestamp now) const {
-  return heartbeat_ && now < vouched_until();
+bool SafetyStage::lives(SenderNumber sender, Timestamp now) const {
+  return sender < max_senders && now < vouched_until(sender);
 }
 
-Timestamp SafetyStage::vouched_until() const {
-  return *heartbeat_ + limits_.heartbeat_timeout;
+Timestamp SafetyStage::vouched_until(std::size_t sender) const {
+  return heartbeats_[sender] ? *heartbeats_[sender] + limits_.heartbeat_timeout : Timestamp::min();
 }
 
 bool SafetyStage::renewal_due(Timestamp now) const {
-  const Timestamp possible_end = std::min(vouched_until(), now + longest_command);
   const bool interval_over = now - sent_ >= renewal_interval;
   return std::ranges::any_of(motors_, [&](const Motor& motor) {
-    if (motor.intensity == 0) return interval_over && motor.silent_from > now;
+    if (!motor.runs()) return interval_over && motor.silent_from > now;
     const bool runs_out = motor.silent_from - now <= renewal_margin;
-    return interval_over || (runs_out && std::min(motor.end, possible_end) > motor.silent_from);
+    return interval_over || (runs_out && strongest(motor, now).end > motor.silent_from);
   });
 }
 
 bool SafetyStage::send(Timestamp now) {
   MotorCommands commands;
-  const Timestamp possible_end = std::min(vouched_until(), now + longest_command);
   for (Motor& motor : motors_) {
-    if (motor.intensity > 0) {
-      const Timestamp end = std::min(motor.end, possible_end);
-      commands.push_back({motor.channel, motor.intensity, end - now});
-      motor.silent_from = std::max(motor.silent_from, end);
+    if (const Share share = strongest(motor, now); share.intensity > 0) {
+      commands.push_back({motor.channel, share.intensity, share.end - now});
+      motor.silent_from = std::max(motor.silent_from, share.end);
     } else if (motor.silent_from > now) {
       commands.push_back({motor.channel, 0, {}});
     }
@@ -252,9 +277,33 @@ bool SafetyStage::send(Timestamp now) {
 
 std::uint64_t SafetyStage::forget_drives() {
   std::uint64_t ran = 0;
-  for (Motor& motor : motors_)
-    ran += one_if(std::exchange(motor.intensity, std::uint8_t{0}) > 0);
+  for (Motor& motor : motors_) {
+    ran += one_if(motor.runs());
+    motor.shares.fill({});
+  }
   return ran;
+}
+
+// True if it had asked for anything. `counter`: of the motors that are off by that.
+bool SafetyStage::forget_drives_of(std::size_t sender, std::uint64_t& counter) {
+  bool asked = false;
+  for (Motor& motor : motors_) {
+    if (std::exchange(motor.shares[sender], {}).intensity == 0) continue;
+    asked = true;
+    counter += one_if(!motor.runs());
+  }
+  return asked;
+}
+
+// Everything of one sender off; says so to the jacket if it asked for anything. What others ask for goes on.
+void SafetyStage::silence(SenderNumber sender, std::uint64_t& counter, Timestamp now) {
+  if (sender >= max_senders || !forget_drives_of(sender, counter)) return;
+  const bool others = std::ranges::any_of(motors_, [](const Motor& motor) { return motor.runs(); });
+  if (!others) {
+    link_->stop_all(now);
+  } else if (!send(now)) {
+    turn_off(counters_.off_link_lost, now);
+  }
 }
 
 // Everything off because of a fault; says so to the jacket if a motor was on.

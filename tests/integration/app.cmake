@@ -19,6 +19,8 @@ telehug_test(test_app_stop KIND integration SUBJECT ops
   SOURCES integration/app/stop_test.cpp DEPS running_pair)
 telehug_test(test_app_paired KIND integration SUBJECT link
   SOURCES integration/app/paired_test.cpp DEPS running_pair)
+telehug_test(test_app_several KIND integration SUBJECT link
+  SOURCES integration/app/several_test.cpp DEPS running_pair)
 telehug_test(test_app_nobody_to_touch KIND integration SUBJECT ops
   SOURCES integration/app/nobody_to_touch_test.cpp DEPS running_pair telehug_pictures)
 telehug_test(test_app_bad_input KIND integration SUBJECT ops

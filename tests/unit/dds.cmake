@@ -16,7 +16,7 @@ telehug_test(test_publish KIND unit SUBJECT link
   DEPS active_publish)
 
 telehug_test(test_subscribe KIND unit SUBJECT link
-  SOURCES unit/subscribe/lossy_way_test.cpp unit/subscribe/staleness_test.cpp unit/subscribe/touch_order_test.cpp
+  SOURCES unit/subscribe/lossy_way_test.cpp unit/subscribe/sender_turn_test.cpp unit/subscribe/staleness_test.cpp unit/subscribe/touch_order_test.cpp
   DEPS passive_subscribe active_publish)
 
 telehug_test(test_dds KIND unit SUBJECT link
@@ -36,5 +36,5 @@ telehug_test(test_pairing_link KIND unit SUBJECT link
   SOURCES unit/pairing_link/pairing_code_test.cpp unit/pairing_link/pairing_exchange_test.cpp
   DEPS telehug_pairing_link OpenSSL::SSL)
 telehug_test(test_membership KIND unit SUBJECT link
-  SOURCES unit/daemon/membership_test.cpp
+  SOURCES unit/daemon/connections_test.cpp unit/daemon/membership_test.cpp
   DEPS telehug_daemon)

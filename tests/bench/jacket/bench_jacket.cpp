@@ -115,13 +115,13 @@ nlohmann::json measure(const JacketProfile& profile) {
     if (i == 0) allocations_before = allocations;
     now += frame_interval;
     const auto fresh = touches.next();
-    safety.on_heartbeat(now);
+    safety.on_heartbeat(0, now);
     const Timestamp begun = clock.now();
     safety.tick(now);
     const Timestamp ticked = clock.now();
     plan = touch_to_drives(touches.event, fresh, profile, plan, now, 200ms);
     const Timestamp planned = clock.now();
-    safety.apply(plan.drives, now);
+    safety.apply(0, plan.drives, now);
     const Timestamp applied = clock.now();
     if (i < 0) continue;
     ticking.us.push_back(us_between(begun, ticked));

@@ -75,7 +75,7 @@ TEST_P(Stop, EndsWithAResumeAfterTheSideThatStoppedWasStartedAgain) {
     return answer.is_object() && answer.at("peer").at("connected").get<bool>();
   })) << pair.logs();
   if (GetParam() == Side::active) {
-    EXPECT_TRUE(eventually([&] { return pair.complains(Side::active, "still holds to a stop"); })) << pair.logs();
+    EXPECT_TRUE(eventually([&] { return pair.complains(Side::active, "the other side is stopped"); })) << pair.logs();
   } else {
     EXPECT_TRUE(pair.complains(Side::active, "the other side has stopped everything")) << pair.logs();
   }

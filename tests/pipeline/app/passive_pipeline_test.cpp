@@ -28,7 +28,7 @@ class PassivePipelineTest : public testing::Test {
   void beat() {
     Heartbeat heartbeat = example_heartbeat();
     heartbeat.sent_time_ns = to_ns(clock.now());
-    safety.on_heartbeat(clock.now());
+    safety.on_heartbeat(0, clock.now());
     pipeline.observe(heartbeat, clock.now());
   }
 
@@ -42,7 +42,7 @@ class PassivePipelineTest : public testing::Test {
       if (contact->phase != Phase::move) event.transitions.push_back(transition_of(event.sequence, *contact));
     }
     clock.advance(delay);
-    if (delay > Duration{}) safety.on_heartbeat(clock.now());
+    if (delay > Duration{}) safety.on_heartbeat(0, clock.now());
     return pipeline.process(event, clock.now());
   }
   const FeltAnswers& touch(int box, Phase phase = Phase::down) { return touch(contact_in(box, 1, phase)); }
@@ -58,7 +58,8 @@ class PassivePipelineTest : public testing::Test {
   MetricsRegistry metrics;
   JacketProfile profile = profile_of({motor(1, {}, {1}), motor(2, {}, {2}), motor(3, {}, {2, 3})});
   SafetyStage safety{std::make_unique<FakeJacketLink>(jacket), profile, SafetyLimits{}};
-  PassivePipeline pipeline{profile, safety, 200ms, other_session, clock, metrics};
+  SenderTurn turn{false};
+  PassivePipeline pipeline{0, profile, safety, turn, 200ms, other_session, clock, metrics};
   SessionId session = example_session;
   TouchEvent event;
 };
@@ -219,13 +220,13 @@ TEST_F(PassivePipelineTest, AllocatesNothingWhileAContactGoesOn) {
   auto link = std::make_unique<ForgetfulLink>();
   const ForgetfulLink& jacket_link = *link;
   SafetyStage stage(std::move(link), profile, SafetyLimits{});
-  PassivePipeline path(profile, stage, 200ms, other_session, clock, metrics);
+  PassivePipeline path(0, profile, stage, turn, 200ms, other_session, clock, metrics);
   event = event_of(1, {contact_in(2)});
   event.session = session;
   std::size_t answers = 0;
   const auto feel = [&] {
     clock.advance(33ms);
-    stage.on_heartbeat(clock.now());
+    stage.on_heartbeat(0, clock.now());
     stage.tick(clock.now());
     ++event.sequence;
     event.sent_time_ns = to_ns(clock.now());
@@ -240,6 +241,52 @@ TEST_F(PassivePipelineTest, AllocatesNothingWhileAContactGoesOn) {
   EXPECT_EQ(allocation_count() - before, 0U);
   EXPECT_EQ(answers, 1U);
   EXPECT_GT(jacket_link.sent(), 200U) << "it was renewed all the time";
+}
+
+// Another sender to the same jacket.
+class TwoSenders : public PassivePipelineTest {
+ protected:
+  void let_touch(bool one_at_a_time) {
+    turn = SenderTurn(one_at_a_time);
+    safety.on_heartbeat(1, clock.now());
+    Heartbeat heartbeat = example_heartbeat();
+    heartbeat.session = other_session;
+    heartbeat.sent_time_ns = to_ns(clock.now());
+    other.observe(heartbeat, clock.now());
+  }
+  FeltOutcome other_touches(int box) {
+    ++sequence;
+    TouchEvent touched = event_of(sequence, {contact_in(box, 9, sequence == 1 ? Phase::down : Phase::move)});
+    touched.session = other_session;
+    touched.sent_time_ns = to_ns(clock.now());
+    if (sequence == 1) touched.transitions.push_back(transition_of(1, touched.contacts[0]));
+    const FeltAnswers& answers = other.process(touched, clock.now());
+    return answers.empty() ? FeltOutcome::uncovered : answers.at(0).outcome;
+  }
+
+  std::uint64_t sequence = 0;
+  PassivePipeline other{1, profile, safety, turn, 200ms, other_session, clock, metrics};
+};
+
+TEST_F(TwoSenders, AreFeltTogetherIfMerged) {
+  let_touch(false);
+  EXPECT_EQ(touch(1).at(0).outcome, FeltOutcome::driven);
+  EXPECT_EQ(other_touches(2), FeltOutcome::driven);
+  EXPECT_THAT(running(), ElementsAre(0, 1, 2));
+  EXPECT_EQ(counter("events_accepted"), 2U);
+}
+
+TEST_F(TwoSenders, AreFeltOneAtATimeIfExclusiveAndTheOtherIsToldWhy) {
+  let_touch(true);
+  EXPECT_EQ(touch(1).at(0).outcome, FeltOutcome::driven);
+  EXPECT_EQ(other_touches(2), FeltOutcome::another_sender);
+  EXPECT_THAT(running(), ElementsAre(0));
+  for (Duration passed{}; passed < SenderTurn::pause; passed += 100ms) {
+    pass(100ms);
+    safety.on_heartbeat(1, clock.now());
+  }
+  EXPECT_EQ(other_touches(2), FeltOutcome::driven);  // it has rested there all the time
+  EXPECT_THAT(running(), ElementsAre(1, 2));
 }
 
 }  // namespace

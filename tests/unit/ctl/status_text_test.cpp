@@ -38,6 +38,18 @@ TEST(StatusText, ShowsPeerCameraCountersAndLatencies) {
   EXPECT_THAT(text, testing::ContainsRegex("finger +1.250 +2.500 +3.000 +100\n"));
 }
 
+TEST(StatusText, ShowsEachOfSeveralPeersOnce) {
+  const std::string text = status_text(
+      {{"peer", {{"connected", true}}},
+       {"pair", {{"name", "Dad"}}},
+       {"link", {{"replaced", 0}}},
+       {"peers",
+        {{{"name", "Dad"}, {"connected", true}, {"one_way_ms", 3}}, {{"name", "Grandma"}, {"connected", false}}}}});
+  EXPECT_THAT(text, HasSubstr("peer         Dad: connected, to here 3 ms\n"));
+  EXPECT_THAT(text, HasSubstr("peer         Grandma: not connected\n"));
+  EXPECT_THAT(text, Not(HasSubstr("replaced")));
+}
+
 TEST(StatusText, SaysWhatTheLastTouchWas) {
   const std::string text = status_text({{"last_touch", {{"box", 7}, {"gesture", "stroke"}, {"phase", "up"}}}});
   EXPECT_THAT(text, HasSubstr("last touch   stroke, box 7, phase up\n"));
@@ -64,8 +76,8 @@ TEST(StatusText, BearsPartsOfAnyType) {
                                  Json::array({1, "a", nullptr}),
                                  Json::object(),
                                  Json{{"connected", "perhaps"}, {"open", 3}, {"p50", {1}}}};
-  const std::vector<std::string> names{"side",   "state",  "version",  "uptime_s",   "problems",  "peer",
-                                       "camera", "jacket", "counters", "latency_ms", "last_touch"};
+  const std::vector<std::string> names{"side",  "state",  "version", "uptime_s", "problems",   "peer",
+                                       "peers", "camera", "jacket",  "counters", "latency_ms", "last_touch"};
   std::mt19937 random(3);
   for (int round = 0; round < 2000; ++round) {
     Json status = Json::object();

@@ -5,6 +5,8 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
+#include <set>
+#include <stdexcept>
 
 #include "doubles/temporary_folder.hpp"
 
@@ -12,10 +14,11 @@ namespace telehug {
 namespace {
 
 using testing::HasSubstr;
+using testing::UnorderedElementsAre;
 
 const WallTime now{std::chrono::seconds(1'800'000'000)};
 
-class Memberships : public testing::Test {
+class AMembership : public testing::Test {
  protected:
   Pair pair_with(const std::string& parents_name) {
     PairStore parent(folder / parents_name, Side::active);
@@ -24,7 +27,12 @@ class Memberships : public testing::Test {
         .value()
         .pair;
   }
-  [[nodiscard]] Result<Membership> member() const { return membership(config, Side::passive, now); }
+  [[nodiscard]] Result<Memberships> found() const { return memberships(config, Side::passive, now); }
+  [[nodiscard]] Membership only() const {
+    auto members = found().value().members;
+    if (members.size() != 1) throw std::runtime_error("there are several");
+    return members.front();
+  }
 
   TemporaryFolder folder;
   PeerConfig config = [this] {
@@ -36,8 +44,8 @@ class Memberships : public testing::Test {
   }();
 };
 
-TEST_F(Memberships, WithoutAPairReachNobodyBeyondThisPc) {
-  const Membership alone = member().value();
+TEST_F(AMembership, WithoutAPairReachNobodyBeyondThisPc) {
+  const Membership alone = only();
   EXPECT_FALSE(alone.pair);
   EXPECT_TRUE(alone.dds.loopback_only);
   EXPECT_TRUE(alone.dds.peers.empty());
@@ -46,9 +54,9 @@ TEST_F(Memberships, WithoutAPairReachNobodyBeyondThisPc) {
   EXPECT_FALSE(pair_over(alone, now + std::chrono::hours(1'000'000)));
 }
 
-TEST_F(Memberships, OfAPairUseItsFilesAndItsPartition) {
+TEST_F(AMembership, OfAPairUseItsFilesAndItsPartition) {
   const Pair pair = pair_with("Grandma");
-  const Membership paired = member().value();
+  const Membership paired = only();
   ASSERT_TRUE(paired.pair && paired.dds.security);
   EXPECT_EQ(paired.dds.security->permissions, pair.files.permissions);
   EXPECT_EQ(paired.dds.partition, pair.partition);
@@ -56,27 +64,66 @@ TEST_F(Memberships, OfAPairUseItsFilesAndItsPartition) {
   EXPECT_EQ(paired.dds.peers, std::vector<std::string>{"192.0.2.7"});
 }
 
-TEST_F(Memberships, AreAskedForIfThereAreSeveral) {
+TEST_F(AMembership, OfAWearerAreAllThatWereGrantedOrThoseThatAreNamed) {
   const Pair first = pair_with("Grandma");
   const Pair second = pair_with("Dad");
-  EXPECT_THAT(member().error().message, testing::AllOf(HasSubstr("peer.pair"), HasSubstr(first.id), HasSubstr("Dad")));
-  config.pair = second.id;
-  EXPECT_EQ(member()->pair->name, "Dad");
-  config.pair = "0123456789abcdef";
-  EXPECT_THAT(member().error().message, HasSubstr("is no pair of this PC"));
+  const auto names = [&] {
+    std::set<std::string> all;
+    for (const Membership& member : found().value().members)
+      all.insert(member.pair->name);
+    return all;
+  };
+  EXPECT_THAT(names(), UnorderedElementsAre("Grandma", "Dad"));
+  config.pairs = second.id;
+  EXPECT_THAT(names(), UnorderedElementsAre("Dad"));
+  config.pairs = second.id + ", " + first.id;
+  EXPECT_THAT(names(), UnorderedElementsAre("Grandma", "Dad"));
+  config.pairs = "0123456789abcdef";
+  EXPECT_THAT(found().error().message, HasSubstr("is no pair of this PC"));
 }
 
-TEST_F(Memberships, OfABrokenPairAreRefusedAndNotTakenForNone) {
+TEST_F(AMembership, OfAParentWithSeveralAreToBeNamed) {
+  config.pairs_folder = (folder / "parents").string();
+  PairStore parent(config.pairs_folder, Side::active);
+  for (const char* child : {"Mia", "Paul"}) {
+    PairStore wearer(folder / child, Side::passive);
+    ASSERT_TRUE(parent.accept(wearer.grant(parent.request("Grandma").value(), child, now).value().grant, now));
+  }
+  const auto of_parent = [&] { return memberships(config, Side::active, now); };
+  EXPECT_THAT(of_parent().error().message,
+              testing::AllOf(HasSubstr("peer.pairs"), HasSubstr("Mia"), HasSubstr("Paul")));
+  config.pairs = "all";
+  EXPECT_EQ(of_parent().value().members.size(), 2U);
+}
+
+TEST_F(AMembership, AreNoMoreThanADaemonServes) {
+  for (std::size_t i = 0; i <= max_memberships; ++i)
+    pair_with("parent" + std::to_string(i));
+  EXPECT_THAT(found().error().message, HasSubstr("at most 8 pairs"));
+}
+
+TEST_F(AMembership, OfABrokenPairAreRefusedAndNotTakenForNone) {
   const Pair pair = pair_with("Grandma");
   std::filesystem::remove(pair.files.governance);
-  EXPECT_THAT(member().error().message, HasSubstr(pair.files.governance.string()));
+  EXPECT_THAT(found().error().message, HasSubstr(pair.files.governance.string()));
   std::ofstream(pair.files.private_key.parent_path() / "pair.json") << "nonsense";
-  EXPECT_THAT(member().error().message, HasSubstr("can't be read"));
+  EXPECT_THAT(found().error().message, HasSubstr("can't be read"));
 }
 
-TEST_F(Memberships, AreOverWhenThePairExpiresOrIsRevoked) {
+TEST_F(AMembership, LeaveOutABrokenPairIfAnotherCanBeUsed) {
   const Pair pair = pair_with("Grandma");
-  const Membership paired = member().value();
+  pair_with("Dad");
+  std::filesystem::remove(pair.files.governance);
+  const Memberships usable = found().value();
+  ASSERT_EQ(usable.members.size(), 1U);
+  EXPECT_EQ(usable.members[0].pair->name, "Dad");
+  ASSERT_EQ(usable.left_out.size(), 1U);
+  EXPECT_THAT(usable.left_out[0], HasSubstr(pair.files.governance.string()));
+}
+
+TEST_F(AMembership, AreOverWhenThePairExpiresOrIsRevoked) {
+  const Pair pair = pair_with("Grandma");
+  const Membership paired = only();
   EXPECT_FALSE(pair_over(paired, pair.expires - std::chrono::seconds(1)));
   EXPECT_THAT(pair_over(paired, pair.expires).value(), HasSubstr("expired on 2028-01-15"));
   PairStore(config.pairs_folder, Side::passive).revoke(pair.id);

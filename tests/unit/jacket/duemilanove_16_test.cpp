@@ -44,8 +44,8 @@ std::string commands_for(const Contact& contact) {
   SafetyStage safety(std::make_unique<FakeJacketLink>(jacket), profile, {});
   const Timestamp now = from_ns(1'000'000'000);
   safety.tick(now);
-  safety.on_heartbeat(now);
-  safety.apply(touch_to_drives(event_of(1, {contact}), {}, profile, {}, now, 200ms).drives, now);
+  safety.on_heartbeat(0, now);
+  safety.apply(0, touch_to_drives(event_of(1, {contact}), {}, profile, {}, now, 200ms).drives, now);
   return jacket.frames.empty() ? "" : text(jacket.frames.front().commands);
 }
 

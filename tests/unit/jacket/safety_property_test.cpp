@@ -3,6 +3,8 @@
 // Whatever comes in, what reaches the jacket stays within every limit and ends.
 #include <gmock/gmock.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <random>
@@ -23,6 +25,8 @@ class Adversary {
   double real(double least, double most) { return std::uniform_real_distribution(least, most)(random_); }
   bool one_in(int n) { return whole(1, n) == 1; }
 
+  // Now and then one that there can't be.
+  SenderNumber sender() { return static_cast<SenderNumber>(one_in(20) ? whole(0, 255) : whole(0, 2)); }
   double strength() {
     static constexpr double odd[]{std::numeric_limits<double>::quiet_NaN(),
                                   std::numeric_limits<double>::infinity(),
@@ -134,7 +138,8 @@ class HauntedJacket {
         safety_.resume();
         break;
       case 5:
-        if (adversary_.one_in(4)) safety_.all_off(now_);
+        if (adversary_.one_in(4)) safety_.all_off(adversary_.sender(), now_);
+        if (adversary_.one_in(8)) forget();
         break;
       case 6:
         jacket_.next_state = LinkState::armed;
@@ -176,14 +181,25 @@ class HauntedJacket {
     const Duration jump = std::chrono::milliseconds(adversary_.whole(-5000, 5000));
     now_ += jump;
     for (auto& motor : jacket_.motors)
-      motor.end += jump;                       // the microcontroller's own clock has not jumped
-    if (jump < 0ms) heartbeat_ = Timestamp{};  // whatever was heard before says nothing now
+      motor.end += jump;                            // the microcontroller's own clock has not jumped
+    if (jump < 0ms) heartbeats_.fill(Timestamp{});  // whatever was heard before says nothing now
   }
 
   void heartbeat() {
-    heartbeat_ = now_;
-    safety_.on_heartbeat(now_);
+    const SenderNumber sender = adversary_.sender();
+    if (sender < max_senders) heartbeats_.at(sender) = now_;
+    safety_.on_heartbeat(sender, now_);
   }
+
+  void forget() {
+    check_frames();  // those of before were vouched for
+    const SenderNumber sender = adversary_.sender();
+    if (sender < max_senders) heartbeats_.at(sender) = Timestamp{};
+    safety_.forget(sender, now_);
+  }
+
+  // No sender vouches for anything from then on.
+  [[nodiscard]] Timestamp vouched_until() const { return std::ranges::max(heartbeats_) + limits_.heartbeat_timeout; }
 
   void stop() {
     if (!adversary_.one_in(4)) return;
@@ -201,19 +217,23 @@ class HauntedJacket {
     } else {
       plan_.drives = adversary_.drives(now_);
     }
-    const SafetyVerdict verdict = safety_.apply(plan_.drives, now_);
+    const SafetyVerdict verdict = safety_.apply(adversary_.sender(), plan_.drives, now_);
     if (safety_.stopped()) {
       EXPECT_EQ(verdict.outcome, FeltOutcome::stopped);
     }
   }
 
-  void check() {
+  void check_frames() {
     for (; checked_ < jacket_.frames.size(); ++checked_)
       check_frame(jacket_.frames[checked_]);
+  }
+
+  void check() {
+    check_frames();
     for (const std::uint8_t id : safety_.running()) {
       EXPECT_FALSE(safety_.stopped()) << "actuator " << int{id};
       EXPECT_EQ(jacket_.status.state, LinkState::armed);
-      EXPECT_LT(now_, heartbeat_ + limits_.heartbeat_timeout);
+      EXPECT_LT(now_, vouched_until());
     }
   }
 
@@ -230,8 +250,7 @@ class HauntedJacket {
       EXPECT_LE(command.duration, limits_.longest_drive);
       if (command.intensity == 0) continue;
       EXPECT_GT(command.duration, 0ms);
-      EXPECT_LE(frame.time + command.duration, heartbeat_ + limits_.heartbeat_timeout)
-          << "outlives what the sender's heartbeat vouches for";
+      EXPECT_LE(frame.time + command.duration, vouched_until()) << "outlives what the senders' heartbeats vouch for";
       EXPECT_FALSE(safety_.stopped());
     }
   }
@@ -244,7 +263,7 @@ class HauntedJacket {
   JacketPlan plan_;
   std::array<double, 16> most_{};
   Timestamp now_ = from_ns(100'000'000'000);
-  Timestamp heartbeat_ = Timestamp{};
+  std::array<Timestamp, max_senders> heartbeats_{};
   std::size_t checked_ = 0;
 };
 

@@ -31,17 +31,17 @@ class SafetyStageTest : public ::testing::Test {
     safety.reset();
     safety.emplace(std::make_unique<FakeJacketLink>(jacket), three_motors(), limits);
     safety->tick(now);
-    safety->on_heartbeat(now);
+    safety->on_heartbeat(0, now);
     jacket.stops = 0;
   }
   FeltOutcome drive(std::uint8_t actuator, double strength = 1, Duration duration = 200ms) {
-    return safety->apply({{actuator, strength, now + duration}}, now).outcome;
+    return safety->apply(0, {{actuator, strength, now + duration}}, now).outcome;
   }
   // The sender's heartbeat every 100 ms, a tick every 10 ms.
   void live(Duration duration) {
     for (Duration passed{}; passed < duration; passed += 10ms) {
       now += 10ms;
-      if ((now - start_time) % 100ms == 0ms) safety->on_heartbeat(now);
+      if ((now - start_time) % 100ms == 0ms) safety->on_heartbeat(0, now);
       safety->tick(now);
     }
   }
@@ -94,7 +94,7 @@ TEST_F(SafetyStageTest, answers_limited_if_the_limits_leave_nothing_that_turns_t
 
 TEST_F(SafetyStageTest, tells_for_each_contact_what_is_left_of_it) {
   start({.max_strength = 0.1});
-  const SafetyVerdict verdict = safety->apply({{1, 1, now + 100ms}, {2, 1, now + 100ms}}, now);
+  const SafetyVerdict verdict = safety->apply(0, {{1, 1, now + 100ms}, {2, 1, now + 100ms}}, now);
   EXPECT_EQ(verdict.outcome, FeltOutcome::driven);
   const std::uint8_t first[]{1};
   const std::uint8_t second[]{2};
@@ -115,7 +115,7 @@ TEST_F(SafetyStageTest, turns_off_what_is_no_number) {
 }
 
 TEST_F(SafetyStageTest, refuses_an_unknown_actuator_and_drives_the_others) {
-  const SafetyVerdict verdict = safety->apply({{77, 1, now + 100ms}, {3, 1, now + 100ms}}, now);
+  const SafetyVerdict verdict = safety->apply(0, {{77, 1, now + 100ms}, {3, 1, now + 100ms}}, now);
   EXPECT_EQ(verdict.outcome, FeltOutcome::driven);
   EXPECT_THAT(verdict.refused, ElementsAre(77));
   EXPECT_THAT(running(), ElementsAre(2));
@@ -183,7 +183,7 @@ TEST_F(SafetyStageTest, renews_before_a_command_runs_out_though_the_sender_vouch
   for (int step = 1; step <= 50; ++step) {
     now += 20ms;
     ASSERT_THAT(running(), ElementsAre(0)) << step;
-    if (step % 5 == 0) safety->on_heartbeat(now);
+    if (step % 5 == 0) safety->on_heartbeat(0, now);
     safety->tick(now);
   }
 }
@@ -214,7 +214,7 @@ TEST_F(SafetyStageTest, does_not_take_up_an_old_drive_when_the_sender_comes_back
   start({.longest_drive = 2s});
   drive(1, 1, 2s);
   now += 300ms;
-  safety->on_heartbeat(now);
+  safety->on_heartbeat(0, now);
   safety->tick(now);
   EXPECT_THAT(running(), IsEmpty());
   EXPECT_EQ(drive(1), FeltOutcome::driven);
@@ -246,7 +246,7 @@ TEST_F(SafetyStageTest, stays_off_after_a_stop_until_it_is_resumed) {
 
 TEST_F(SafetyStageTest, drives_again_after_an_all_off) {
   drive(1);
-  safety->all_off(now);
+  safety->all_off(0, now);
   EXPECT_THAT(running(), IsEmpty());
   EXPECT_EQ(safety->counters().off_asked, 1U);
   EXPECT_EQ(drive(1), FeltOutcome::driven);
@@ -261,7 +261,7 @@ TEST_F(SafetyStageTest, answers_jacket_absent_while_there_is_none) {
 
 TEST_F(SafetyStageTest, answers_jacket_absent_as_soon_as_the_link_says_so_even_to_no_drives) {
   jacket.status.state = LinkState::absent;
-  EXPECT_EQ(safety->apply({}, now).outcome, FeltOutcome::jacket_absent);
+  EXPECT_EQ(safety->apply(0, {}, now).outcome, FeltOutcome::jacket_absent);
 }
 
 TEST_F(SafetyStageTest, answers_jacket_absent_when_the_link_refuses_the_frame) {
@@ -307,7 +307,7 @@ TEST_F(SafetyStageTest, ends_everything_when_the_clock_jumps_back) {
   EXPECT_THAT(jacket.running(now), IsEmpty());
   EXPECT_EQ(safety->counters().off_clock_jumped, 1U);
   EXPECT_EQ(drive(1), FeltOutcome::stale);
-  safety->on_heartbeat(now);
+  safety->on_heartbeat(0, now);
   EXPECT_EQ(drive(1), FeltOutcome::driven);
 }
 
@@ -347,6 +347,86 @@ TEST(SafetyStage, refuses_limits_and_profiles_that_are_out_of_range) {
   bad.actuators.clear();
   EXPECT_THROW(make(bad, {}), std::invalid_argument);
   EXPECT_THROW(SafetyStage(nullptr, good, {}), std::invalid_argument);
+}
+
+// Two senders, both heard, each with a heartbeat every 100 ms.
+class SafetyStageOfTwo : public SafetyStageTest {
+ protected:
+  SafetyStageOfTwo() { safety->on_heartbeat(1, now); }
+
+  FeltOutcome drive_by(SenderNumber sender, std::uint8_t actuator, double strength, Duration duration = 200ms) {
+    return safety->apply(sender, {{actuator, strength, now + duration}}, now).outcome;
+  }
+};
+
+TEST_F(SafetyStageOfTwo, drives_as_strongly_as_the_strongest_asks_and_never_the_sum) {
+  drive_by(0, 1, 0.3);
+  const int weaker = intensity(0);
+  drive_by(1, 1, 0.6);
+  const int stronger = intensity(0);
+  EXPECT_GT(stronger, weaker);
+  drive_by(0, 1, 0.3);
+  EXPECT_EQ(intensity(0), stronger);
+  drive_by(1, 1, 0);
+  EXPECT_EQ(intensity(0), weaker);
+}
+
+TEST_F(SafetyStageOfTwo, falls_back_to_the_weaker_when_the_stronger_drive_ends) {
+  drive_by(0, 1, 0.3, 200ms);
+  const int weaker = intensity(0);
+  drive_by(1, 1, 1, 50ms);
+  live(60ms);
+  EXPECT_EQ(intensity(0), weaker);
+  EXPECT_EQ(safety->counters().off_expired, 0U);
+}
+
+TEST_F(SafetyStageOfTwo, silences_only_the_one_whose_heartbeats_stop) {
+  for (Duration passed{}; passed < 300ms; passed += 10ms) {
+    now += 10ms;
+    if ((now - start_time) % 100ms == 0ms) safety->on_heartbeat(0, now);
+    drive_by(0, 1, 0.3);
+    drive_by(1, 1, 1);
+    drive_by(1, 3, 1);
+    safety->tick(now);
+  }
+  EXPECT_THAT(safety->running(), ElementsAre(1));
+  EXPECT_LT(intensity(0), 128);
+  EXPECT_EQ(drive_by(1, 3, 1), FeltOutcome::stale);
+  EXPECT_EQ(drive_by(0, 3, 1), FeltOutcome::driven);
+}
+
+TEST_F(SafetyStageOfTwo, lets_no_heartbeat_of_one_vouch_for_a_command_of_the_other) {
+  now += 240ms;
+  safety->on_heartbeat(0, now);
+  drive_by(1, 1, 1, 200ms);  // heard last 240 ms ago: 10 ms are left
+  ASSERT_EQ(jacket.frames.back().commands.size(), 1U);
+  EXPECT_EQ(jacket.frames.back().commands[0].duration, 10ms);
+}
+
+TEST_F(SafetyStageOfTwo, turns_off_what_one_drives_and_not_what_the_other_does) {
+  drive_by(0, 1, 1);
+  drive_by(1, 3, 1);
+  safety->all_off(0, now);
+  EXPECT_THAT(safety->running(), ElementsAre(3));
+  EXPECT_THAT(running(), ElementsAre(2));
+  EXPECT_EQ(drive_by(0, 1, 1), FeltOutcome::driven);
+  safety->forget(0, now);
+  EXPECT_THAT(safety->running(), ElementsAre(3));
+  EXPECT_EQ(drive_by(0, 1, 1), FeltOutcome::stale);
+}
+
+TEST_F(SafetyStageOfTwo, stops_both) {
+  drive_by(0, 1, 1);
+  drive_by(1, 3, 1);
+  safety->stop("test", now);
+  EXPECT_THAT(running(), IsEmpty());
+  EXPECT_EQ(drive_by(1, 3, 1), FeltOutcome::stopped);
+}
+
+TEST_F(SafetyStageOfTwo, knows_nobody_beyond_its_last_number) {
+  safety->on_heartbeat(max_senders, now);
+  EXPECT_EQ(drive_by(max_senders, 1, 1), FeltOutcome::stale);
+  EXPECT_THAT(running(), IsEmpty());
 }
 
 }  // namespace

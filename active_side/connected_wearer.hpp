@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <boost/lockfree/spsc_queue.hpp>
+#include <string>
+#include <utility>
+
+#include "daemon/connection.hpp"
+
+namespace telehug {
+
+// One of those whom this PC touches: the connection to them, and what they answer.
+class ConnectedWearer {
+ public:
+  ConnectedWearer(Membership membership, const SessionId& session, Duration heartbeat_timeout, const Clock& clock)
+      : connection(std::move(membership), session, heartbeat_timeout, clock,
+                   [this](const Felt& answer) { felt.push(answer); }) {}
+  // The queue's own destructor (Boost 1.74) does not destroy what it holds.
+  ~ConnectedWearer() {
+    felt.consume_all([](const Felt&) {});
+  }
+  ConnectedWearer(const ConnectedWearer&) = delete;
+  ConnectedWearer& operator=(const ConnectedWearer&) = delete;
+
+  [[nodiscard]] const Membership& membership() const noexcept { return connection.membership(); }
+  [[nodiscard]] std::string name() const { return connection.name(); }
+  // Touch thread: may be touched now.
+  [[nodiscard]] bool listens(Timestamp now) { return connection.alive(now) && !connection.stopped_by_peer(); }
+
+  boost::lockfree::spsc_queue<Felt, boost::lockfree::capacity<1024>> felt;  // from a thread of DDS to housekeeping
+  Connection<TouchEvent, Felt> connection;  // last: it calls back as soon as it is there
+};
+
+}  // namespace telehug

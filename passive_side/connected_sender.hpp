@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <functional>
+#include <utility>
+
+#include "common/latest_slot.hpp"
+#include "daemon/connection.hpp"
+#include "passive_pipeline.hpp"
+
+namespace telehug {
+
+// One of those who may touch this jacket: the connection to them, and what their touches become.
+class ConnectedSender {
+ public:
+  struct Arrival {
+    TouchEvent event;
+    Timestamp time;
+  };
+
+  // `arrived`: called on a thread of DDS after each event; true: it replaced one that nobody has read.
+  ConnectedSender(SenderNumber its_number, Membership membership, const SessionId& session, Duration heartbeat_timeout,
+                  PassivePipeline its_pipeline, const Clock& clock, std::function<void(bool replaced)> arrived)
+      : number(its_number),
+        pipeline(std::move(its_pipeline)),
+        connection(std::move(membership), session, heartbeat_timeout, clock,
+                   [this, &clock, arrived = std::move(arrived)](const TouchEvent& event) {
+                     arrived(newest_event.put({event, clock.now()}));
+                   }) {}
+
+  [[nodiscard]] const Membership& membership() const noexcept { return connection.membership(); }
+  [[nodiscard]] std::string name() const { return connection.name(); }
+
+  const SenderNumber number;
+  PassivePipeline pipeline;  // the drive thread's
+  LatestSlot<Arrival> newest_event;
+  Connection<Felt, TouchEvent> connection;  // last: it calls back as soon as it is there
+};
+
+}  // namespace telehug
