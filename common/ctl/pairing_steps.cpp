@@ -44,6 +44,30 @@ void print_pair(std::FILE* to, const Pair& pair, bool json) {
       plain_text(pair.name), pair.id, pair.phrase, pair.id);
 }
 
+void print_renewed(std::FILE* to, const Pair& pair, bool is_news, bool json) {
+  if (json) return fmt::print(to, "{}\n", nlohmann::json{{"pair", as_json(pair)}, {"renewed", is_news}}.dump());
+  fmt::print(to, "The pair with {} (id {}) is {} until {:%Y-%m-%d}.\n", plain_text(pair.name), pair.id,
+             is_news ? "renewed and valid" : "valid already", fmt::gmtime(pair.expires.time_since_epoch().count()));
+  if (pair.side == Side::passive)
+    fmt::print(to,
+               "The other PC gets this by itself when both are connected, or take the text there: `telehug pair "
+               "finish`.\n");
+}
+
+// By its id or the other person's name.
+Result<Pair> pair_called(const PairStore& store, const std::string& word) {
+  std::vector<Pair> found;
+  std::string ids;
+  for (Pair& pair : store.list()) {
+    if (pair.id != word && pair.name != word) continue;
+    ids += (ids.empty() ? "" : ", ") + pair.id;
+    found.push_back(std::move(pair));
+  }
+  if (found.empty()) return Error{fmt::format("no pair {}: `telehug pair list` shows the pairs", word)};
+  if (found.size() > 1) return Error{fmt::format("several pairs are called {}: say which by its id: {}", word, ids)};
+  return found.front();
+}
+
 // A pairing by connection, as this PC's store does it.
 class Pairing {
  public:
@@ -92,6 +116,27 @@ Result<std::string> read_text(const std::filesystem::path& file) {
   text.resize(static_cast<std::size_t>(from.gcount()));
   if (text.size() > longest_text) return Error{"this is too long for a text of a pairing"};
   return text;
+}
+
+// What is for the other PC: into the file, or to stdout.
+ExitCode hand_over(const std::string& text, const std::filesystem::path& file) {
+  if (file.empty()) {
+    fmt::print("{}\n", text);
+    return ExitCode::ok;
+  }
+  std::ofstream out(file, std::ios::binary | std::ios::trunc);
+  out << text << '\n' << std::flush;
+  return out ? ExitCode::ok : fail(ExitCode::refused, fmt::format("{} can't be written", file.string()));
+}
+
+ExitCode take_renewal(PairStore& store, const std::string& text, bool json) {
+  const auto renewal = parse_renewal(text);
+  if (!renewal) return fail(ExitCode::refused, renewal.error().message);
+  const auto installed = store.install(*renewal, wall_time());
+  if (!installed) return fail(ExitCode::refused, installed.error().message);
+  const bool is_news = installed->has_value();
+  print_renewed(stdout, is_news ? **installed : store.find(renewal->pair).value(), is_news, json);
+  return ExitCode::ok;
 }
 
 }  // namespace
@@ -165,13 +210,7 @@ ExitCode pair_request(const PairingWish& wish) {
   PairStore store(wish.folder, wish.side);
   const auto request = store.request(wish.name);
   if (!request) return fail(ExitCode::refused, request.error().message);
-  if (wish.file.empty()) {
-    fmt::print("{}\n", *request);
-    return ExitCode::ok;
-  }
-  std::ofstream out(wish.file, std::ios::binary | std::ios::trunc);
-  out << *request << '\n' << std::flush;
-  return out ? ExitCode::ok : fail(ExitCode::refused, fmt::format("{} can't be written", wish.file.string()));
+  return hand_over(*request, wish.file);
 }
 
 ExitCode pair_grant(const PairingWish& wish) {
@@ -190,13 +229,25 @@ ExitCode pair_grant(const PairingWish& wish) {
 ExitCode pair_finish(const PairingWish& wish) {
   if (wish.side != Side::active)
     return fail(ExitCode::usage, "a pairing is finished on the parent's PC (--side active)");
-  const auto grant = read_text(wish.file);
-  if (!grant) return fail(ExitCode::refused, grant.error().message);
+  const auto text = read_text(wish.file);
+  if (!text) return fail(ExitCode::refused, text.error().message);
   PairStore store(wish.folder, wish.side);
-  const auto pair = store.accept(*grant, wall_time());
+  if (is_renewal(*text)) return take_renewal(store, *text, wish.json);
+  const auto pair = store.accept(*text, wall_time());
   if (!pair) return fail(ExitCode::refused, pair.error().message);
   print_pair(stdout, *pair, wish.json);
   return ExitCode::ok;
+}
+
+ExitCode pair_renew(const PairingWish& wish) {
+  PairStore store(wish.folder, wish.side);
+  const auto pair = pair_called(store, wish.word);
+  if (!pair) return fail(ExitCode::refused, pair.error().message);
+  const auto renewal = store.renew(*pair, wall_time());
+  if (!renewal) return fail(ExitCode::refused, renewal.error().message);
+  // Stdout is the text for the other PC and nothing else.
+  print_renewed(stderr, present(*pair), true, wish.json);
+  return hand_over(to_text(*renewal), wish.file);
 }
 
 }  // namespace telehug
