@@ -18,6 +18,7 @@ namespace {
 constexpr const char* examples = R"(
 Examples:
   telehug pair invite --name "Mum"            prints a code; tell it to the other person
+  telehug pair invite --qr                    prints it for a camera, too
   telehug pair accept CODE --name "Kim"       on the other PC; both print a phrase to compare
   telehug pair list
   telehug pair revoke 0123456789abcdef        on each PC
@@ -77,6 +78,10 @@ class PairCommands {
   void word(CLI::App* command, const char* name, const char* about) {
     command->add_option(name, given_->wish.word, about)->required();
   }
+  void qr(CLI::App* command) {
+    command->add_flag("--qr", given_->wish.qr, "Print it as a QR code, too, for a camera (37 columns, 19 lines)");
+    command->add_option("--qr-svg", given_->wish.qr_svg, "Write the QR code as an SVG picture that only you can read");
+  }
   void address(CLI::App* command) {
     command->add_option("--address", given_->wish.address,
                         "This PC's IPv4 address as the other reaches it (default: of the default route)");
@@ -107,7 +112,8 @@ void add_pair(CLI::App& app, ExitCode& result) {
   CLI::App* finish = commands.add("finish", "Parent's PC: read the grant or the renewal", pair_finish, "active");
   CLI::App* renew = commands.add("renew", "Wearer's PC: make a pair valid for another year", pair_renew);
   commands.address(invite);
-  commands.word(accept, "code", "As the other PC printed it; dashes and case don't matter");
+  commands.qr(invite);
+  commands.word(accept, "code", "As the other PC printed it, or the text of its QR code; dashes and case don't matter");
   commands.word(revoke, "id", "As list shows it");
   commands.word(renew, "pair", "The other person's name or the pair's id, as list shows them");
   for (CLI::App* command : {invite, accept, request, grant})

@@ -11,8 +11,10 @@
 
 #include "ctl/own_address.hpp"
 #include "ctl/plain_text.hpp"
+#include "files/private_file.hpp"
 #include "pairing/pairing.hpp"
 #include "pairing_link/pairing_exchange.hpp"
+#include "pairing_link/qr_code.hpp"
 #include "service/control_socket.hpp"
 #include "service/signals.hpp"
 
@@ -154,9 +156,17 @@ ExitCode pair_invite(const PairingWish& wish) {
   }
   const std::string code = to_text(invitation->code());
   const std::string where = to_text(invitation->code().inviter);
+  const QrCode qr = make_qr_code(to_qr_text(invitation->code()));
+  if (!wish.qr_svg.empty()) {
+    const std::string svg = to_svg(qr);
+    const auto* bytes = reinterpret_cast<const std::uint8_t*>(svg.data());
+    if (const Status written = write_private_file(wish.qr_svg, {bytes, svg.size()}); !written)
+      return fail(ExitCode::refused, written.error().message);
+  }
   if (wish.json) {
     fmt::print("{}\n", nlohmann::json{{"code", code}, {"address", where}}.dump());
   } else {
+    if (wish.qr) fmt::print("{}", to_terminal(qr));
     fmt::print(
         "{}\nTell it to the other person only, who types `telehug pair accept CODE`. It is good for 10 minutes and "
         "one pairing, while this program waits at {}.\n",

@@ -21,6 +21,8 @@ struct PairingWish {
   std::filesystem::path file;  // empty: stdin or stdout
   std::string word;            // the code of accept, the id of revoke, the name or id of renew
   bool json = false;
+  bool qr = false;               // invite: the code as a QR code as well
+  std::filesystem::path qr_svg;  // invite: a picture of it; empty: none
 };
 
 ExitCode pair_invite(const PairingWish& wish);

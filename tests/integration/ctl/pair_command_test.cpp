@@ -86,6 +86,20 @@ TEST_F(PairCommand, PairsWithoutAConnection) {
   expect_one_pair_on_both();
 }
 
+TEST_F(PairCommand, InvitesByAQrCodeWhoseTextItAccepts) {
+  const auto svg = folder_ / "code.svg";
+  const ChildProgram inviter({TELEHUG_BIN "/telehug", "pair", "invite", "--qr", "--qr-svg", svg.string(), "--side",
+                              "passive", "--folder", (folder_ / "passive").string(), "--address", "127.0.0.1"});
+  int lines = 0;
+  std::string line = inviter.read_line();
+  for (; line.starts_with('\x1b'); line = inviter.read_line())
+    ++lines;
+  EXPECT_EQ(lines, 19);
+  EXPECT_NE(content("code.svg").find("</svg>"), std::string::npos);
+  EXPECT_EQ(std::filesystem::status(svg).permissions(), std::filesystem::perms(0600));
+  EXPECT_EQ(run("accept telehug:pair:" + line + on("active")), 0) << content("errors.txt");
+}
+
 TEST_F(PairCommand, RenewsAPairByHand) {
   pair_up_by_texts();
   const std::string id = pairs("active").at(0).at("id");
