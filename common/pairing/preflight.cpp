@@ -22,7 +22,9 @@ std::string date(WallTime time) {
 
 std::string renew_it(const Pair& pair) {
   return pair.side == Side::passive
-             ? fmt::format("renew the pair: `telehug pair renew {}`, and its text on the parent's PC", pair.id)
+             ? fmt::format(
+                   "renew the pair: `telehug pair renew {}`, and its text to `telehug pair finish` on the parent's PC",
+                   pair.id)
              : fmt::format(
                    "renew the pair: `telehug pair renew {}` on the wearer's PC, and its text to `telehug pair "
                    "finish` here",

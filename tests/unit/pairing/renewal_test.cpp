@@ -302,6 +302,20 @@ TEST_F(TheOffer, IsMadeAgainWhenItBrokeOffInBetween) {
   EXPECT_NE(offer.newest()->certificate, renewal.certificate);
 }
 
+TEST_F(TheOffer, IsMadeAgainWhenItBrokeOffBeforeTheWearersOwnFiles) {
+  const std::string certificate = content(pair.wearer.files.certificate);
+  const std::string permissions = content(pair.wearer.files.permissions);
+  const Renewal renewal = wearer.renew(there(), later).value();
+  overwrite(pair.wearer.files.certificate, certificate);
+  overwrite(pair.wearer.files.permissions, permissions);
+  ASSERT_EQ(there().expires, end);
+  // What was made for the parent's PC is good all the same.
+  EXPECT_TRUE(parent.install(renewal, later).value());
+  ASSERT_TRUE(offer.serve(later + day));
+  EXPECT_EQ(there().expires, later + 366 * day);
+  EXPECT_TRUE(parent.install(offer.newest().value(), later + day).value());
+}
+
 TEST_F(TheOffer, SaysOnceAnHourThatItCantBeMade) {
   fs::remove(renewal_files_in(folder_of(there())).identity_key);
   EXPECT_THAT(offer.serve(later).error().message, HasSubstr("pair the two PCs again"));
