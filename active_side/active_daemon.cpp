@@ -48,6 +48,7 @@ ActiveDaemon::ActiveDaemon(const ActiveConfig& config, Membership membership, st
       sending_switch_(config.sending.at_start, config.sending.only_in_front),
       calibration_path_(rig_file(config.rig)),
       traffic_([this](const Felt& felt) { felt_.push(felt); }),
+      renewal_(membership_.pair),
       control_(std::make_unique<ControlServer>(control_options(config.control, Side::active))) {
   if (config_.overlay.show)
     overlay_.emplace(X11OverlayConfig{.display = {}, .monitor = config_.body_map.monitor}, clock);
@@ -55,10 +56,12 @@ ActiveDaemon::ActiveDaemon(const ActiveConfig& config, Membership membership, st
     hotkey_.emplace(X11HotkeyConfig{.display = {}, .keys = config_.sending.hotkey}, clock);
   answer_commands();
   traffic_.connect(link_keeper_.participant());
+  renewal_.connect(link_keeper_.participant());
 }
 
 ActiveDaemon::~ActiveDaemon() {
   end_thread();
+  renewal_.disconnect();
   traffic_.disconnect();
   peer_.disconnect();
   // The queue's own destructor (Boost 1.74) does not destroy what it holds.
@@ -82,6 +85,7 @@ ExitCode ActiveDaemon::run(Signals& signals) {
     tell_local_touch();
     serve_desktop();
     tell_peer();
+    renewal_.serve(wall_time());
     keep_link();
   }
   notifier_.stopping();
@@ -298,7 +302,7 @@ void ActiveDaemon::keep_link() {
     const std::lock_guard lock(state_mutex_);
     peer = state_.peer;
   }
-  link_keeper_.serve(peer, LinkKeeper::endpoints(peer_, traffic_));
+  link_keeper_.serve(peer, LinkKeeper::endpoints(peer_, traffic_, renewal_));
 }
 
 }  // namespace telehug

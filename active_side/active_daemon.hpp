@@ -17,6 +17,7 @@
 #include "config/config.hpp"
 #include "daemon/link_keeper.hpp"
 #include "daemon/membership.hpp"
+#include "daemon/renewal_link.hpp"
 #include "daemon/stop_switch.hpp"
 #include "local_touch/local_touch.hpp"
 #include "overlay/x11_hotkey.hpp"
@@ -176,6 +177,7 @@ class ActiveDaemon {
   SayOnChange say_desktop_;
 
   Traffic<TouchEvent, Felt> traffic_;
+  RenewalReceiver renewal_;
   std::unique_ptr<ControlServer> control_;
   std::thread touch_thread_;
 };

@@ -145,6 +145,7 @@ Json ActiveDaemon::problems(const TouchThreadState& state, const FaceState& face
     if (!desktop_problem_.empty())
       list.push_back(problem_json(desktop_problem_, "or turn off [overlay] show and [sending] hotkey"));
   }
+  if (auto ends = pair_end_problem(membership_, wall_time())) list.push_back(*std::move(ends));
   if (!face.remark.empty()) list.push_back(problem_json(face.remark, "nothing needs to be done: all works"));
   if (stop_.stopped()) list.push_back(problem_json("stopped here: " + stop_.reason(), "run `telehug resume`"));
   if (peer_.stopped_by_peer()) list.push_back(peer_stop_problem_json(told));
@@ -197,7 +198,7 @@ Json ActiveDaemon::status() const {
   counters["touches_outside_grid"] = state.nobody.outside_grid;
   counters["touches_withheld"] = state.withheld;
   counters["peer_losses"] = state.peer.losses;
-  counters["messages_dropped"] = peer_.dropped() + traffic_.dropped();
+  counters["messages_dropped"] = peer_.dropped() + traffic_.dropped() + renewal_.dropped();
 
   const char* open_why = state.camera_open      ? state.peer.alive ? "a peer is connected" : "this PC uses the touches"
                          : state.recording_over ? "the recording is over"

@@ -45,13 +45,16 @@ PassiveDaemon::PassiveDaemon(const PassiveConfig& config, Membership membership,
         const bool replaced = newest_event_.put({event, clock_.now()});
         if (replaced) events_replaced_.add();
       }),
+      renewal_(membership_.pair, session_),
       control_(std::make_unique<ControlServer>(control_options(config.control, Side::passive))) {
   answer_commands();
   traffic_.connect(link_keeper_.participant());
+  renewal_.connect(link_keeper_.participant());
 }
 
 PassiveDaemon::~PassiveDaemon() {
   end_thread();
+  renewal_.disconnect();
   traffic_.disconnect();
   peer_.disconnect();
 }
@@ -70,6 +73,7 @@ ExitCode PassiveDaemon::run(Signals& signals) {
     if (over) break;
     tell_watchers();
     tell_peer();
+    renewal_.serve(wall_time());
     keep_link();
   }
   notifier_.stopping();
@@ -183,7 +187,7 @@ void PassiveDaemon::tell_peer() {
 }
 
 void PassiveDaemon::keep_link() {
-  link_keeper_.serve(state().peer, LinkKeeper::endpoints(peer_, traffic_));
+  link_keeper_.serve(state().peer, LinkKeeper::endpoints(peer_, traffic_, renewal_));
 }
 
 }  // namespace telehug

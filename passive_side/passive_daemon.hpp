@@ -15,6 +15,7 @@
 #include "config/config.hpp"
 #include "daemon/link_keeper.hpp"
 #include "daemon/membership.hpp"
+#include "daemon/renewal_link.hpp"
 #include "daemon/stop_switch.hpp"
 #include "jacket/jacket_profile.hpp"
 #include "passive_pipeline.hpp"
@@ -123,6 +124,7 @@ class PassiveDaemon {
   LinkKeeper link_keeper_;
   PeerLink peer_;
   Traffic<Felt, TouchEvent> traffic_;
+  RenewalSender renewal_;
   std::unique_ptr<ControlServer> control_;
   std::thread drive_thread_;
 };

@@ -54,6 +54,7 @@ Json PassiveDaemon::problems(const DriveThreadState& now) const {
     list.push_back(problem_json(fmt::format("no jacket answers on {}: {}", now.link.device, now.link.problem),
                                 "check its cable and power, and [jacket] link in the configuration"));
   }
+  if (auto ends = pair_end_problem(membership_, wall_time())) list.push_back(*std::move(ends));
   if (stop_.stopped()) list.push_back(problem_json("stopped here: " + stop_.reason(), "run `telehug resume`"));
   if (peer_.stopped_by_peer()) list.push_back(peer_stop_problem_json(peer_told()));
   if (!now.peer.alive) {
