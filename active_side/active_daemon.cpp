@@ -312,7 +312,7 @@ void ActiveDaemon::keep_connections() {
     own.reason = own.stopped ? stop_.reason() : rig_problem_;
   }
   for (const auto& wearer : wearers_.all())
-    wearer->connection.keep(own, stop_);
+    wearer->connection.keep(own, stop_, wall_time());
 }
 
 }  // namespace telehug

@@ -159,6 +159,7 @@ Json ActiveDaemon::problems(const TouchThreadState& state, const FaceState& face
   if (stop_.stopped()) list.push_back(problem_json("stopped here: " + stop_.reason(), "run `telehug resume`"));
   for (const std::string& pair : left_out_)
     list.push_back(problem_json(pair, "the other pairs work; start telehug-active again when it is mended"));
+  add_pair_ends(list, connections);
   for (const ConnectionStatus& wearer : connections)
     if (const Json problem = wearer_problem(wearer, stop_.stopped()); !problem.is_null()) list.push_back(problem);
   if (!any_alive(connections)) {

@@ -6,8 +6,22 @@
 #include <utility>
 
 #include "daemon/connection.hpp"
+#include "daemon/renewal_link.hpp"
 
 namespace telehug {
+
+// What goes between the two beside touches and answers.
+class BesideTouches {
+ public:
+  BesideTouches(const std::optional<Pair>& pair, const SessionId&, const Clock&) : renewal_(pair) {}
+  void connect(DdsParticipant& participant) { renewal_.connect(participant); }
+  void disconnect() { renewal_.disconnect(); }
+  void serve(WallTime now) { renewal_.serve(now); }
+  [[nodiscard]] std::uint64_t dropped() const { return renewal_.dropped(); }
+
+ private:
+  RenewalReceiver renewal_;
+};
 
 // One of those whom this PC touches: the connection to them, and what they answer.
 class ConnectedWearer {
@@ -28,7 +42,7 @@ class ConnectedWearer {
   [[nodiscard]] bool listens(Timestamp now) { return connection.alive(now) && !connection.stopped_by_peer(); }
 
   boost::lockfree::spsc_queue<Felt, boost::lockfree::capacity<1024>> felt;  // from a thread of DDS to housekeeping
-  Connection<TouchEvent, Felt> connection;  // last: it calls back as soon as it is there
+  Connection<TouchEvent, Felt, BesideTouches> connection;  // last: it calls back as soon as it is there
 };
 
 }  // namespace telehug

@@ -22,6 +22,7 @@ pkg_check_modules(xcb REQUIRED IMPORTED_TARGET xcb xcb-shm xcb-damage xcb-xfixes
 pkg_check_modules(pipewire REQUIRED IMPORTED_TARGET libpipewire-0.3)
 pkg_check_modules(sdbus REQUIRED IMPORTED_TARGET sdbus-c++)
 pkg_check_modules(libpng REQUIRED IMPORTED_TARGET libpng)
+pkg_check_modules(libqrencode REQUIRED IMPORTED_TARGET libqrencode)
 
 find_library(XNNPACK_LIBRARY XNNPACK REQUIRED)
 add_library(xnnpack::xnnpack UNKNOWN IMPORTED GLOBAL)

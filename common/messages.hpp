@@ -128,4 +128,14 @@ struct StopAll {
   std::string reason;
 };
 
+inline constexpr std::size_t max_renewed_certificate = 8192;
+inline constexpr std::size_t max_renewed_permissions = 16384;
+
+// Passive side: what lets the other side go on in its pair when its certificate ends (pairing.hpp).
+struct PairRenewal {
+  SessionId session;
+  std::string certificate;  // PEM
+  std::string permissions;  // S/MIME
+};
+
 }  // namespace telehug

@@ -6,9 +6,23 @@
 
 #include "common/latest_slot.hpp"
 #include "daemon/connection.hpp"
+#include "daemon/renewal_link.hpp"
 #include "passive_pipeline.hpp"
 
 namespace telehug {
+
+// What goes between the two beside touches and answers.
+class BesideAnswers {
+ public:
+  BesideAnswers(const std::optional<Pair>& pair, const SessionId& session, const Clock&) : renewal_(pair, session) {}
+  void connect(DdsParticipant& participant) { renewal_.connect(participant); }
+  void disconnect() { renewal_.disconnect(); }
+  void serve(WallTime now) { renewal_.serve(now); }
+  [[nodiscard]] static std::uint64_t dropped() { return 0; }
+
+ private:
+  RenewalSender renewal_;
+};
 
 // One of those who may touch this jacket: the connection to them, and what their touches become.
 class ConnectedSender {
@@ -34,7 +48,7 @@ class ConnectedSender {
   const SenderNumber number;
   PassivePipeline pipeline;  // the drive thread's
   LatestSlot<Arrival> newest_event;
-  Connection<Felt, TouchEvent> connection;  // last: it calls back as soon as it is there
+  Connection<Felt, TouchEvent, BesideAnswers> connection;  // last: it calls back as soon as it is there
 };
 
 }  // namespace telehug

@@ -224,7 +224,7 @@ void PassiveDaemon::keep_connections() {
                : own.ready     ? ""
                                : "no jacket answers: " + now.link.problem;
   for (const auto& sender : senders_.all())
-    sender->connection.keep(own, stop_);
+    sender->connection.keep(own, stop_, wall_time());
 }
 
 }  // namespace telehug

@@ -49,6 +49,7 @@ Json PassiveDaemon::problems(const DriveThreadState& now, const std::vector<Conn
     list.push_back(problem_json(fmt::format("no jacket answers on {}: {}", now.link.device, now.link.problem),
                                 "check its cable and power, and [jacket] link in the configuration"));
   }
+  add_pair_ends(list, connections);
   if (stop_.stopped()) list.push_back(problem_json("stopped here: " + stop_.reason(), "run `telehug resume`"));
   for (const ConnectionStatus& connection : connections)
     if (connection.stopped_by_peer) list.push_back(peer_stop_problem_json(connection));

@@ -18,6 +18,7 @@ namespace {
 constexpr const char* examples = R"(
 Examples:
   telehug pair invite --name "Mum"            prints a code; tell it to the other person
+  telehug pair invite --qr                    prints it for a camera, too
   telehug pair accept CODE --name "Kim"       on the other PC; both print a phrase to compare
   telehug pair list
   telehug pair revoke 0123456789abcdef        on each PC
@@ -26,6 +27,10 @@ Where the PCs can't reach each other directly, by chat or USB stick:
   telehug pair request > request.txt          on the parent's PC
   telehug pair grant < request.txt > grant.txt    on the wearer's PC
   telehug pair finish < grant.txt             on the parent's PC
+
+A pair is valid for a year and is renewed by itself while both PCs are connected. By hand:
+  telehug pair renew Mum > renewal.txt        on the wearer's PC
+  telehug pair finish < renewal.txt           on the parent's PC
 
 Exit codes: 0 ok, 2 wrong command line or code, 9 the pairing failed, 13 can't listen at the address.)";
 
@@ -73,6 +78,10 @@ class PairCommands {
   void word(CLI::App* command, const char* name, const char* about) {
     command->add_option(name, given_->wish.word, about)->required();
   }
+  void qr(CLI::App* command) {
+    command->add_flag("--qr", given_->wish.qr, "Print it as a QR code, too, for a camera (37 columns, 19 lines)");
+    command->add_option("--qr-svg", given_->wish.qr_svg, "Write the QR code as an SVG picture that only you can read");
+  }
   void address(CLI::App* command) {
     command->add_option("--address", given_->wish.address,
                         "This PC's IPv4 address as the other reaches it (default: of the default route)");
@@ -100,17 +109,21 @@ void add_pair(CLI::App& app, ExitCode& result) {
   CLI::App* request =
       commands.add("request", "Parent's PC: print a request for the wearer's PC", pair_request, "active");
   CLI::App* grant = commands.add("grant", "Wearer's PC: read a request, print the grant", pair_grant, "passive");
-  CLI::App* finish = commands.add("finish", "Parent's PC: read the grant", pair_finish, "active");
+  CLI::App* finish = commands.add("finish", "Parent's PC: read the grant or the renewal", pair_finish, "active");
+  CLI::App* renew = commands.add("renew", "Wearer's PC: make a pair valid for another year", pair_renew);
   commands.address(invite);
-  commands.word(accept, "code", "As the other PC printed it; dashes and case don't matter");
+  commands.qr(invite);
+  commands.word(accept, "code", "As the other PC printed it, or the text of its QR code; dashes and case don't matter");
   commands.word(revoke, "id", "As list shows it");
+  commands.word(renew, "pair", "The other person's name or the pair's id, as list shows them");
   for (CLI::App* command : {invite, accept, request, grant})
     commands.name(command);
-  for (CLI::App* command : {invite, accept, list, grant, finish})
+  for (CLI::App* command : {invite, accept, list, grant, finish, renew})
     commands.json(command);
   commands.file(request, "Where to write the request (default: stdout)");
   commands.file(grant, "Where to read the request (default: stdin)");
-  commands.file(finish, "Where to read the grant (default: stdin)");
+  commands.file(finish, "Where to read the grant or the renewal (default: stdin)");
+  commands.file(renew, "Where to write the renewal (default: stdout)");
 }
 
 }  // namespace telehug

@@ -11,8 +11,10 @@
 
 #include "ctl/own_address.hpp"
 #include "ctl/plain_text.hpp"
+#include "files/private_file.hpp"
 #include "pairing/pairing.hpp"
 #include "pairing_link/pairing_exchange.hpp"
+#include "pairing_link/qr_code.hpp"
 #include "service/control_socket.hpp"
 #include "service/signals.hpp"
 
@@ -42,6 +44,30 @@ void print_pair(std::FILE* to, const Pair& pair, bool json) {
       "Paired with {} (id {}).\nPhrase: {}\nRead the phrase to each other: if both PCs show the same words, nobody "
       "sits in between; if not, take it back with `telehug pair revoke {}`.\n",
       plain_text(pair.name), pair.id, pair.phrase, pair.id);
+}
+
+void print_renewed(std::FILE* to, const Pair& pair, bool is_news, bool json) {
+  if (json) return fmt::print(to, "{}\n", nlohmann::json{{"pair", as_json(pair)}, {"renewed", is_news}}.dump());
+  fmt::print(to, "The pair with {} (id {}) is {} until {:%Y-%m-%d}.\n", plain_text(pair.name), pair.id,
+             is_news ? "renewed and valid" : "valid already", fmt::gmtime(pair.expires.time_since_epoch().count()));
+  if (pair.side == Side::passive)
+    fmt::print(to,
+               "The other PC gets this by itself when both are connected, or take the text there: `telehug pair "
+               "finish`.\n");
+}
+
+// By its id or the other person's name.
+Result<Pair> pair_called(const PairStore& store, const std::string& word) {
+  std::vector<Pair> found;
+  std::string ids;
+  for (Pair& pair : store.list()) {
+    if (pair.id != word && pair.name != word) continue;
+    ids += (ids.empty() ? "" : ", ") + pair.id;
+    found.push_back(std::move(pair));
+  }
+  if (found.empty()) return Error{fmt::format("no pair {}: `telehug pair list` shows the pairs", word)};
+  if (found.size() > 1) return Error{fmt::format("several pairs are called {}: say which by its id: {}", word, ids)};
+  return found.front();
 }
 
 // A pairing by connection, as this PC's store does it.
@@ -94,6 +120,27 @@ Result<std::string> read_text(const std::filesystem::path& file) {
   return text;
 }
 
+// What is for the other PC: into the file, or to stdout.
+ExitCode hand_over(const std::string& text, const std::filesystem::path& file) {
+  if (file.empty()) {
+    fmt::print("{}\n", text);
+    return ExitCode::ok;
+  }
+  std::ofstream out(file, std::ios::binary | std::ios::trunc);
+  out << text << '\n' << std::flush;
+  return out ? ExitCode::ok : fail(ExitCode::refused, fmt::format("{} can't be written", file.string()));
+}
+
+ExitCode take_renewal(PairStore& store, const std::string& text, bool json) {
+  const auto renewal = parse_renewal(text);
+  if (!renewal) return fail(ExitCode::refused, renewal.error().message);
+  const auto installed = store.install(*renewal, wall_time());
+  if (!installed) return fail(ExitCode::refused, installed.error().message);
+  const bool is_news = installed->has_value();
+  print_renewed(stdout, is_news ? **installed : store.find(renewal->pair).value(), is_news, json);
+  return ExitCode::ok;
+}
+
 }  // namespace
 
 ExitCode pair_invite(const PairingWish& wish) {
@@ -109,9 +156,17 @@ ExitCode pair_invite(const PairingWish& wish) {
   }
   const std::string code = to_text(invitation->code());
   const std::string where = to_text(invitation->code().inviter);
+  const QrCode qr = make_qr_code(to_qr_text(invitation->code()));
+  if (!wish.qr_svg.empty()) {
+    const std::string svg = to_svg(qr);
+    const auto* bytes = reinterpret_cast<const std::uint8_t*>(svg.data());
+    if (const Status written = write_private_file(wish.qr_svg, {bytes, svg.size()}); !written)
+      return fail(ExitCode::refused, written.error().message);
+  }
   if (wish.json) {
     fmt::print("{}\n", nlohmann::json{{"code", code}, {"address", where}}.dump());
   } else {
+    if (wish.qr) fmt::print("{}", to_terminal(qr));
     fmt::print(
         "{}\nTell it to the other person only, who types `telehug pair accept CODE`. It is good for 10 minutes and "
         "one pairing, while this program waits at {}.\n",
@@ -165,13 +220,7 @@ ExitCode pair_request(const PairingWish& wish) {
   PairStore store(wish.folder, wish.side);
   const auto request = store.request(wish.name);
   if (!request) return fail(ExitCode::refused, request.error().message);
-  if (wish.file.empty()) {
-    fmt::print("{}\n", *request);
-    return ExitCode::ok;
-  }
-  std::ofstream out(wish.file, std::ios::binary | std::ios::trunc);
-  out << *request << '\n' << std::flush;
-  return out ? ExitCode::ok : fail(ExitCode::refused, fmt::format("{} can't be written", wish.file.string()));
+  return hand_over(*request, wish.file);
 }
 
 ExitCode pair_grant(const PairingWish& wish) {
@@ -190,13 +239,25 @@ ExitCode pair_grant(const PairingWish& wish) {
 ExitCode pair_finish(const PairingWish& wish) {
   if (wish.side != Side::active)
     return fail(ExitCode::usage, "a pairing is finished on the parent's PC (--side active)");
-  const auto grant = read_text(wish.file);
-  if (!grant) return fail(ExitCode::refused, grant.error().message);
+  const auto text = read_text(wish.file);
+  if (!text) return fail(ExitCode::refused, text.error().message);
   PairStore store(wish.folder, wish.side);
-  const auto pair = store.accept(*grant, wall_time());
+  if (is_renewal(*text)) return take_renewal(store, *text, wish.json);
+  const auto pair = store.accept(*text, wall_time());
   if (!pair) return fail(ExitCode::refused, pair.error().message);
   print_pair(stdout, *pair, wish.json);
   return ExitCode::ok;
+}
+
+ExitCode pair_renew(const PairingWish& wish) {
+  PairStore store(wish.folder, wish.side);
+  const auto pair = pair_called(store, wish.word);
+  if (!pair) return fail(ExitCode::refused, pair.error().message);
+  const auto renewal = store.renew(*pair, wall_time());
+  if (!renewal) return fail(ExitCode::refused, renewal.error().message);
+  // Stdout is the text for the other PC and nothing else.
+  print_renewed(stderr, present(*pair), true, wish.json);
+  return hand_over(to_text(*renewal), wish.file);
 }
 
 }  // namespace telehug

@@ -18,8 +18,10 @@
 namespace telehug {
 
 // A daemon's way to one other PC (or, without a pair, to a daemon on this one): a participant of its own, what goes
-// over it, and what is known of the other side. Out and In: what a pipeline sends and hears (Traffic).
-template <typename Out, typename In>
+// over it, and what is known of the other side. Out and In: what a pipeline sends and hears (Traffic). Beside: what
+// else this side has in the participant; it has connect(), disconnect(), serve(WallTime) for housekeeping and, for any
+// thread, dropped(), as Traffic's.
+template <typename Out, typename In, typename Beside>
 class Connection {
  public:
   // Connects; throws as LinkKeeper, PeerLink and Traffic do. `hear` is called on a thread of DDS until this is gone.
@@ -29,10 +31,13 @@ class Connection {
       : membership_(std::move(membership)),
         keeper_(membership_.dds, clock),
         peer_(keeper_.participant(), membership_.dds.side, session, heartbeat_timeout, clock),
-        traffic_(std::move(hear)) {
+        traffic_(std::move(hear)),
+        beside_(membership_.pair, session, clock) {
     traffic_.connect(keeper_.participant());
+    beside_.connect(keeper_.participant());
   }
   ~Connection() {
+    beside_.disconnect();
     traffic_.disconnect();
     peer_.disconnect();
   }
@@ -54,15 +59,16 @@ class Connection {
   // --- housekeeping thread ---
 
   // Tells the peer of this side, hears what it tells of itself, replaces the participant when that is due.
-  void keep(const SideStatus& own, const StopSwitch& stop) {
+  void keep(const SideStatus& own, const StopSwitch& stop, WallTime wall_now) {
     stop.tell(peer_);
     if (auto told = peer_.take_peer_status()) {
       const std::lock_guard lock(mutex_);
       told_ = *std::move(told);
     }
     peer_.tell(own);
+    beside_.serve(wall_now);
     const PeerState peer = state();
-    keeper_.serve(peer, LinkKeeper::endpoints(peer_, traffic_));
+    keeper_.serve(peer, LinkKeeper::endpoints(peer_, traffic_, beside_));
     say_peer_.say(spdlog::level::info, peer.alive ? name() + " is connected" : name() + " is not connected");
   }
 
@@ -73,7 +79,8 @@ class Connection {
   [[nodiscard]] std::string name() const { return name_of(membership_.pair); }
   [[nodiscard]] bool stopped_by_peer() const noexcept { return peer_.stopped_by_peer(); }
   // Messages that were malformed or out of range.
-  [[nodiscard]] std::uint64_t dropped() const { return peer_.dropped() + traffic_.dropped(); }
+  [[nodiscard]] std::uint64_t dropped() const { return peer_.dropped() + traffic_.dropped() + beside_.dropped(); }
+  [[nodiscard]] Beside& beside() noexcept { return beside_; }
   [[nodiscard]] PeerState state() const {
     const std::lock_guard lock(mutex_);
     return state_;
@@ -92,6 +99,7 @@ class Connection {
   LinkKeeper keeper_;
   PeerLink peer_;
   Traffic<Out, In> traffic_;
+  Beside beside_;
   SayOnChange say_peer_;
   mutable std::mutex mutex_;  // guards what follows
   PeerState state_;

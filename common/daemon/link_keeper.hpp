@@ -30,18 +30,18 @@ class LinkKeeper {
     std::function<void(DdsParticipant&)> connect;
   };
 
-  // Of a PeerLink and a Traffic.
-  template <typename SomeTraffic>
-  [[nodiscard]] static Endpoints endpoints(PeerLink& peer, SomeTraffic& traffic) {
+  // Of a PeerLink, a Traffic and what else is in the participant.
+  template <typename... Others>
+  [[nodiscard]] static Endpoints endpoints(PeerLink& peer, Others&... others) {
     return {.disconnect =
                 [&] {
-                  traffic.disconnect();
+                  (others.disconnect(), ...);
                   peer.disconnect();
                 },
             .connect =
                 [&](DdsParticipant& participant) {
                   peer.connect(participant);
-                  traffic.connect(participant);
+                  (others.connect(participant), ...);
                 }};
   }
 

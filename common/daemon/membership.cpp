@@ -9,9 +9,12 @@
 
 #include "config/locator.hpp"
 #include "config/places.hpp"
+#include "daemon/status_parts.hpp"
 
 namespace telehug {
 namespace {
+
+constexpr auto end_is_near = std::chrono::hours(24 * 14);
 
 std::string date(WallTime time) {
   return fmt::format("{:%Y-%m-%d}", fmt::gmtime(std::chrono::system_clock::to_time_t(time)));
@@ -100,15 +103,26 @@ std::optional<std::string> pair_over(const Membership& membership, WallTime now)
   if (!std::filesystem::exists(pair.files.private_key, ignored)) {
     return fmt::format("the pair with {} was revoked on this PC", pair.name);
   }
-  if (now >= pair.expires) {
-    return fmt::format("the pair with {} has expired on {}: pair the two PCs again (`telehug pair --help`)", pair.name,
-                       date(pair.expires));
-  }
-  return {};
+  if (now < pair.expires) return {};
+  const WallTime expires = present(pair).expires;
+  if (now < expires) return {};
+  return fmt::format("the pair with {} has expired on {}: renew it (`telehug pair renew {}` on the wearer's PC)",
+                     pair.name, date(expires), pair.id);
 }
 
 nlohmann::json pair_json(const Pair& pair) {
-  return {{"id", pair.id}, {"name", pair.name}, {"phrase", pair.phrase}, {"expires", date(pair.expires)}};
+  return {{"id", pair.id}, {"name", pair.name}, {"phrase", pair.phrase}, {"expires", date(present(pair).expires)}};
+}
+
+std::optional<nlohmann::json> pair_end_problem(const Pair& as_read, WallTime now) {
+  if (now + end_is_near < as_read.expires) return {};
+  const Pair pair = present(as_read);
+  if (now + end_is_near < pair.expires) return {};
+  return problem_json(fmt::format("the pair with {} ends on {}", pair.name, date(pair.expires)),
+                      pair.side == Side::active
+                          ? "it is renewed by itself when both PCs are connected, or run `telehug pair renew` on the "
+                            "wearer's PC and take its text here by `telehug pair finish`"
+                          : fmt::format("run `telehug pair renew {}` and do what it says", pair.id));
 }
 
 std::string describe(const Membership& membership) {

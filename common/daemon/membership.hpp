@@ -40,8 +40,10 @@ struct Memberships {
 // the pair is over, one sentence; nothing while it holds.
 [[nodiscard]] std::optional<std::string> pair_over(const Membership& membership, WallTime now);
 
-// For the status.
+// For the status, as the pair is now: it may have been renewed.
 [[nodiscard]] nlohmann::json pair_json(const Pair& pair);
+// A problem if the pair ends within two weeks: it should have been renewed long before.
+[[nodiscard]] std::optional<nlohmann::json> pair_end_problem(const Pair& pair, WallTime now);
 
 // One line for the log.
 [[nodiscard]] std::string describe(const Membership& membership);

@@ -51,6 +51,13 @@ void add_connections(nlohmann::json& status, const std::vector<ConnectionStatus>
   }
 }
 
+void add_pair_ends(nlohmann::json& problems, const std::vector<ConnectionStatus>& connections) {
+  for (const ConnectionStatus& connection : connections) {
+    if (!connection.pair) continue;
+    if (auto ends = pair_end_problem(*connection.pair, wall_time())) problems.push_back(*std::move(ends));
+  }
+}
+
 void count_connections(nlohmann::json& counters, const std::vector<ConnectionStatus>& connections) {
   std::uint64_t losses = 0;
   std::uint64_t dropped = 0;

@@ -43,6 +43,9 @@ struct ConnectionStatus {
 // are several, also "peers", with all of them.
 void add_connections(nlohmann::json& status, const std::vector<ConnectionStatus>& connections);
 
+// Adds a problem for each pair that ends soon.
+void add_pair_ends(nlohmann::json& problems, const std::vector<ConnectionStatus>& connections);
+
 // Adds "peer_losses" and "messages_dropped" of all of them together.
 void count_connections(nlohmann::json& counters, const std::vector<ConnectionStatus>& connections);
 

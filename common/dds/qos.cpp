@@ -78,6 +78,12 @@ void reliable_state(Qos& qos) {
   qos.durability().kind = dds::TRANSIENT_LOCAL_DURABILITY_QOS;
 }
 
+// Large and rare: the default sets aside room for a hundred of them.
+template <typename Qos>
+void one_at_a_time(Qos& qos) {
+  qos.resource_limits().allocated_samples = 1;
+}
+
 // For a reader of a type whose key is the session: one sample of each.
 void one_of_each_session(dds::DataReaderQos& qos) {
   qos.resource_limits().max_instances = max_sessions;
@@ -130,6 +136,17 @@ template <>
 void choose_delivery<StopAll>(dds::DataReaderQos& qos) {
   reliable_state(qos);
   one_of_each_session(qos);
+}
+template <>
+void choose_delivery<PairRenewal>(dds::DataWriterQos& qos) {
+  reliable_state(qos);
+  one_at_a_time(qos);
+}
+template <>
+void choose_delivery<PairRenewal>(dds::DataReaderQos& qos) {
+  reliable_state(qos);
+  one_of_each_session(qos);
+  one_at_a_time(qos);
 }
 
 }  // namespace
@@ -191,10 +208,12 @@ template dds::DataWriterQos writer_qos<Felt>();
 template dds::DataWriterQos writer_qos<Heartbeat>();
 template dds::DataWriterQos writer_qos<SideStatus>();
 template dds::DataWriterQos writer_qos<StopAll>();
+template dds::DataWriterQos writer_qos<PairRenewal>();
 template dds::DataReaderQos reader_qos<TouchEvent>();
 template dds::DataReaderQos reader_qos<Felt>();
 template dds::DataReaderQos reader_qos<Heartbeat>();
 template dds::DataReaderQos reader_qos<SideStatus>();
 template dds::DataReaderQos reader_qos<StopAll>();
+template dds::DataReaderQos reader_qos<PairRenewal>();
 
 }  // namespace telehug

@@ -43,6 +43,12 @@ struct Topic<StopAll> {
   using WireSupport = v1::StopAllPubSubType;
   static constexpr const char* name = "stop";
 };
+template <>
+struct Topic<PairRenewal> {
+  using Wire = v1::PairRenewal;
+  using WireSupport = v1::PairRenewalPubSubType;
+  static constexpr const char* name = "renewal";
+};
 
 // Topics are named after the side that writes them, so that a side does not hear itself and permissions can tell the
 // directions apart: "telehug/v1/active/heartbeat".

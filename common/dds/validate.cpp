@@ -41,6 +41,11 @@ bool printable(std::string_view text) {
   return true;
 }
 
+// PEM and S/MIME.
+bool lines_of_ascii(std::string_view text) {
+  return std::ranges::all_of(text, [](char c) { return (c >= 0x20 && c < 0x7F) || c == '\n' || c == '\r'; });
+}
+
 Fault validate(const Contact& contact) {
   if (!known(contact.phase)) return "a contact's phase is unknown";
   if (!known(contact.gesture)) return "a contact's gesture is unknown";
@@ -130,6 +135,16 @@ Fault validate(const StopAll& stop) noexcept {
   if (!known(stop.side)) return "the side is unknown";
   if (stop.sequence < 1) return "the sequence number is 0";
   if (!printable(stop.reason)) return "a text is not printable UTF-8";
+  return nullptr;
+}
+
+Fault validate(const PairRenewal& renewal) noexcept {
+  if (!is_session_id(renewal.session)) return "the session is not 32 hexadecimal digits";
+  if (renewal.certificate.empty() || renewal.permissions.empty()) return "a part of the renewal is missing";
+  if (renewal.certificate.size() > max_renewed_certificate || renewal.permissions.size() > max_renewed_permissions)
+    return "a part of the renewal is too long";
+  if (!lines_of_ascii(renewal.certificate) || !lines_of_ascii(renewal.permissions))
+    return "a part of the renewal is no plain text";
   return nullptr;
 }
 

@@ -217,4 +217,17 @@ Fault from_wire(const v1::StopAll& wire, StopAll& stop) {
   return validate(stop);
 }
 
+void to_wire(const PairRenewal& renewal, v1::PairRenewal& wire) {
+  wire.session(session_bytes(renewal.session));
+  write_text(renewal.certificate, wire.certificate());
+  write_text(renewal.permissions, wire.permissions());
+}
+
+Fault from_wire(const v1::PairRenewal& wire, PairRenewal& renewal) {
+  read_session(wire.session(), renewal.session);
+  renewal.certificate = wire.certificate().c_str();
+  renewal.permissions = wire.permissions().c_str();
+  return validate(renewal);
+}
+
 }  // namespace telehug

@@ -67,4 +67,13 @@ Result<nlohmann::json> unarmour(const std::string& kind, const std::string& text
   return json;
 }
 
+bool holds(const std::string& kind, const std::string& text) {
+  return text.find(begin_line(kind)) != std::string::npos;
+}
+
+std::string text_in(const nlohmann::json& json, const char* name) {
+  const auto found = json.find(name);
+  return found != json.end() && found->is_string() ? found->get<std::string>() : "";
+}
+
 }  // namespace telehug

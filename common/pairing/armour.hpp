@@ -13,8 +13,13 @@ namespace telehug {
 
 inline constexpr std::size_t max_armoured_size = 64 * 1024;  // bytes of text
 
-// kind: "request" or "grant".
+// kind: "request", "grant" or "renewal".
 [[nodiscard]] std::string armour(const std::string& kind, const nlohmann::json& content);
 [[nodiscard]] Result<nlohmann::json> unarmour(const std::string& kind, const std::string& text);
+// Is there the beginning of one in the text?
+[[nodiscard]] bool holds(const std::string& kind, const std::string& text);
+
+// A value of what was unarmoured; empty if it is absent or no text.
+[[nodiscard]] std::string text_in(const nlohmann::json& json, const char* name);
 
 }  // namespace telehug

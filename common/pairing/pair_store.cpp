@@ -3,14 +3,12 @@
 #include <openssl/crypto.h>
 
 #include <algorithm>
-#include <fstream>
 #include <stdexcept>
 
 #include "pairing/armour.hpp"
 #include "pairing/authority.hpp"
 #include "pairing/pair_files.hpp"
 #include "pairing/pairing.hpp"
-#include "pairing/permissions.hpp"
 #include "pairing/phrase.hpp"
 #include "pairing/secret_files.hpp"
 
@@ -20,8 +18,7 @@ namespace {
 using Json = nlohmann::json;
 namespace fs = std::filesystem;
 
-constexpr auto pair_lives = std::chrono::hours(24 * 365);
-constexpr auto clocks_differ = std::chrono::hours(24);  // two PCs' clocks, at most
+constexpr auto authorities_live = std::chrono::hours(24 * 365 * 20);
 constexpr std::size_t max_name = 64;
 constexpr std::size_t max_pairs = 100;
 
@@ -38,20 +35,29 @@ Error bad_name(const std::string& whose) {
   return {fmt::format("{} has 1 to {} bytes and no control characters: choose another one", whose, max_name)};
 }
 
-// Empty if it is absent or no text.
-std::string text_in(const Json& json, const char* name) {
-  const auto found = json.find(name);
-  return found != json.end() && found->is_string() ? found->get<std::string>() : "";
-}
-
 // What both PCs know and whoever sat between them would have had to replace.
 std::string phrase(X509* identity_ca, X509* permissions_ca, EVP_PKEY* parent, EVP_PKEY* wearer) {
   return phrase_of(der_of(identity_ca) + der_of(permissions_ca) + public_der_of(parent) + public_der_of(wearer));
 }
 
+void keep_key(const fs::path& file, EVP_PKEY* key) {
+  std::string pem = pem_of(key);
+  write_secret(file, pem);
+  OPENSSL_cleanse(pem.data(), pem.size());
+}
+
+void keep_authorities(const fs::path& folder, const Authority& identity, const Authority& permitting,
+                      const std::string& parents_certificate) {
+  make_secret_folder(folder);
+  const RenewalFiles files = renewal_files_in(folder);
+  keep_key(files.identity_key, identity.key.get());
+  keep_key(files.permissions_key, permitting.key.get());
+  write_secret(files.parents_certificate, parents_certificate);
+}
+
 // The pair's folder appears whole or not at all. pair.json comes last: without it there is no pair.
 void keep(const Pair& pair, const Json& texts, std::string key_pem) {
-  const fs::path folder = pair.files.private_key.parent_path();
+  const fs::path folder = folder_of(pair);
   make_secret_folder(folder.parent_path());
   make_secret_folder(folder);
   write_secret(pair.files.private_key, key_pem);
@@ -61,37 +67,7 @@ void keep(const Pair& pair, const Json& texts, std::string key_pem) {
   write_secret(pair.files.permissions_ca, text_in(texts, "permissions_ca"));
   write_secret(pair.files.governance, text_in(texts, "governance"));
   write_secret(pair.files.permissions, text_in(texts, "permissions"));
-  const Json about = {{"version", 1},
-                      {"id", pair.id},
-                      {"name", pair.name},
-                      {"phrase", pair.phrase},
-                      {"expires", pair.expires.time_since_epoch().count()}};
-  write_secret(folder / "pair.json", about.dump(2) + "\n");
-}
-
-// Nothing if the pair was never finished. Throws if it was and can't be read: whoever has it must not go on as if there
-// were none.
-std::optional<Pair> read_pair(const fs::path& folder, Side side) {
-  const fs::path file = folder / "pair.json";
-  std::error_code none;
-  if (fs::status(file, none).type() == fs::file_type::not_found) return {};
-  const Json about = Json::parse(read_secret(file), nullptr, false);
-  const std::string id = folder.filename().string();
-  if (!about.is_object() || text_in(about, "id") != id || !about.contains("expires") ||
-      !about["expires"].is_number_integer()) {
-    throw std::runtime_error(
-        fmt::format("{} is damaged or can't be read by this user: run as the user who made the pair, or `telehug pair "
-                    "revoke {}` and "
-                    "pair the two PCs again",
-                    file.string(), id));
-  }
-  return Pair{id,
-              text_in(about, "name"),
-              side,
-              partition_of(id),
-              WallTime(std::chrono::seconds(about["expires"].get<std::int64_t>())),
-              text_in(about, "phrase"),
-              files_in(folder)};
+  keep_about(pair);
 }
 
 }  // namespace
@@ -108,10 +84,8 @@ Result<std::string> PairStore::request(const std::string& name) {
   if (!is_name(name)) return bad_name("the name");
   try {
     const KeyHandle key = make_key();
-    std::string key_pem = pem_of(key.get());
     make_secret_folder(folder_);
-    write_secret(folder_ / "pending.key", key_pem);
-    OPENSSL_cleanse(key_pem.data(), key_pem.size());
+    keep_key(folder_ / "pending.key", key.get());
     return armour("request", {{"version", 1}, {"name", name}, {"request", signing_request(key.get(), "request")}});
   } catch (const std::exception& problem) {
     return Error{problem.what()};
@@ -134,21 +108,15 @@ Result<PairStore::Granted> PairStore::grant(const std::string& request, const st
     make_secret_folder(folder_);
     const std::string id = random_hex(8);
     const std::string partition = partition_of(id);
-    const Validity validity{now - clocks_differ, now + pair_lives};
-    // They outlive what they sign, so that the certificate is what expires.
-    const Validity authorities{validity.from, validity.until + clocks_differ};
+    const Validity validity = members_validity(now);
+    // They outlive many renewals.
+    const Validity authorities{validity.from, now + authorities_live};
     const Authority identity = make_authority_of(id, "identities", authorities);
     const Authority permitting = make_authority_of(id, "permissions", authorities);
     const KeyHandle own_key = make_key();
-    const auto certify = [&](EVP_PKEY* key, const char* whose) {
-      return issue(key, fmt::format("{}-{}", whose, id), identity.certificate.get(), identity.key.get(), validity);
-    };
-    const auto permit = [&](Side side, X509* holder) {
-      return sign(permissions(side, subject_of(holder), partition, validity), permitting.certificate.get(),
-                  permitting.key.get());
-    };
-    const CertificateHandle parents = certify(parents_key->get(), "parent");
-    const CertificateHandle own = certify(own_key.get(), "wearer");
+    const auto member = [&](Side side, EVP_PKEY* key) { return admit(id, side, key, identity, permitting, validity); };
+    const Member parents = member(Side::active, parents_key->get());
+    const Member own = member(Side::passive, own_key.get());
     const Json common = {{"version", 1},
                          {"id", id},
                          {"identity_ca", pem_of(identity.certificate.get())},
@@ -156,8 +124,8 @@ Result<PairStore::Granted> PairStore::grant(const std::string& request, const st
                          {"governance", sign(governance(), permitting.certificate.get(), permitting.key.get())}};
 
     Json own_texts = common;
-    own_texts["certificate"] = pem_of(own.get());
-    own_texts["permissions"] = permit(Side::passive, own.get());
+    own_texts["certificate"] = own.certificate;
+    own_texts["permissions"] = own.permissions;
     Pair pair{id,
               parents_name,
               side_,
@@ -165,13 +133,14 @@ Result<PairStore::Granted> PairStore::grant(const std::string& request, const st
               validity.until,
               phrase(identity.certificate.get(), permitting.certificate.get(), parents_key->get(), own_key.get()),
               files_in(folder_ / id)};
+    keep_authorities(folder_ / id, identity, permitting, parents.certificate);
     keep(pair, own_texts, pem_of(own_key.get()));
 
     Json theirs = common;
     theirs["name"] = name;
-    theirs["certificate"] = pem_of(parents.get());
-    theirs["permissions"] = permit(Side::active, parents.get());
-    theirs["wearers_certificate"] = pem_of(own.get());
+    theirs["certificate"] = parents.certificate;
+    theirs["permissions"] = parents.permissions;
+    theirs["wearers_certificate"] = own.certificate;
     return Granted{std::move(pair), armour("grant", theirs)};
   } catch (const std::exception& problem) {
     return Error{problem.what()};
@@ -241,11 +210,17 @@ std::vector<Pair> PairStore::list() const {
   return pairs;
 }
 
+std::optional<Pair> PairStore::find(const std::string& id) const {
+  return is_id(id) ? read_pair(folder_ / id, side_) : std::nullopt;
+}
+
 bool PairStore::revoke(const std::string& id) {
   std::error_code none;
   if (!is_id(id) || !fs::is_directory(folder_ / id, none)) return false;
   // The key first: a running daemon follows it.
   wipe(files_in(folder_ / id).private_key);
+  wipe(renewal_files_in(folder_ / id).identity_key);
+  wipe(renewal_files_in(folder_ / id).permissions_key);
   fs::remove_all(folder_ / id);
   return true;
 }

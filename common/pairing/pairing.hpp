@@ -6,11 +6,14 @@
 //   parent's PC  -- request: name, certificate signing request -->  wearer's PC
 //   parent's PC  <-- grant: certificates, signed permissions  ---  wearer's PC
 //
-// Private keys never leave the PC that made them. Both texts are from outside: they are checked before use.
+// Before certificates and permissions end, the wearer's PC renews them: a third text, by hand or over the link itself.
+//
+// Private keys never leave the PC that made them. The texts are from outside: they are checked before use.
 #pragma once
 
 #include <chrono>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -35,6 +38,22 @@ struct Pair {
   std::string phrase;        // the same words on both PCs; whoever compares them knows that nobody sits in between
   DdsSecurityFiles files;
 };
+
+// What lets a parent's PC go on in its pair: for the same key and name, valid for longer.
+struct Renewal {
+  std::string pair;         // its id
+  std::string certificate;  // PEM
+  std::string permissions;  // S/MIME
+};
+
+// As a text that survives a chat window, and back.
+[[nodiscard]] std::string to_text(const Renewal& renewal);
+[[nodiscard]] Result<Renewal> parse_renewal(const std::string& text);
+// Is it rather a renewal than a grant?
+[[nodiscard]] bool is_renewal(const std::string& text);
+
+// The pair as its files tell now: it may have been renewed. As it was given if they can't be read.
+[[nodiscard]] Pair present(const Pair& pair);
 
 struct PairingFault {
   std::filesystem::path file;
@@ -64,10 +83,24 @@ class PairStore {
   // `name`: how the parent's PC calls this wearer.
   [[nodiscard]] Result<Granted> grant(const std::string& request, const std::string& name, WallTime now);
 
+  // Makes new certificates and permissions for both sides, keeps the wearer's own at once and the parent's to be sent.
+  // A crash on the way leaves a pair that works and can be renewed again.
+  [[nodiscard]] Result<Renewal> renew(const Pair& pair, WallTime now);
+  // The newest one, which the parent's PC may not have yet; nothing if the pair was never renewed.
+  [[nodiscard]] std::optional<Renewal> newest_renewal(const Pair& pair) const;
+  // When the first of what both sides have ends, as far as this PC knows.
+  [[nodiscard]] WallTime first_end(const Pair& pair) const;
+
+  // --- parent's PC again ---
+
+  // Takes what the wearer's PC renewed: the pair as it is then, or nothing if what is there is valid as long.
+  [[nodiscard]] Result<std::optional<Pair>> install(const Renewal& renewal, WallTime now);
+
   // --- either ---
 
   // Throws std::runtime_error (a sentence) if a pair is there and can't be read.
   [[nodiscard]] std::vector<Pair> list() const;
+  [[nodiscard]] std::optional<Pair> find(const std::string& id) const;
   // Takes the pair's files away, overwriting its secrets; its id can't be used again on this PC. False: no such pair.
   bool revoke(const std::string& id);
   // What is wrong with the files of a pair: chain, dates, key, subject, signatures, topics and partition. Empty:

@@ -4,6 +4,7 @@
 #include <fmt/chrono.h>
 #include <fmt/format.h>
 
+#include <ctime>
 #include <initializer_list>
 
 namespace telehug {
@@ -11,6 +12,15 @@ namespace {
 
 std::string xml_time(WallTime time) {
   return fmt::format("{:%Y-%m-%dT%H:%M:%S}", fmt::gmtime(std::chrono::system_clock::to_time_t(time)));
+}
+
+std::optional<WallTime> time_within(const std::string& text, const std::string& element) {
+  const std::size_t at = text.find("<" + element + ">");
+  if (at == std::string::npos) return {};
+  std::tm broken_down{};
+  const char* end = strptime(text.c_str() + at + element.size() + 2, "%Y-%m-%dT%H:%M:%S", &broken_down);
+  if (end == nullptr || *end != '<') return {};
+  return WallTime(std::chrono::seconds(timegm(&broken_down)));
 }
 
 std::string topics(const char* writer, std::initializer_list<const char*> names) {
@@ -64,7 +74,7 @@ std::string governance() {
 
 std::string permissions(Side side, const std::string& subject, const std::string& partition, const Validity& validity) {
   const std::string of_active = topics("active", {"touch", "heartbeat", "status", "stop"});
-  const std::string of_passive = topics("passive", {"felt", "heartbeat", "status", "stop"});
+  const std::string of_passive = topics("passive", {"felt", "heartbeat", "renewal", "status", "stop"});
   const bool active = side == Side::active;
   return fmt::format(R"(<?xml version="1.0" encoding="UTF-8"?>
 <dds>
@@ -91,6 +101,13 @@ std::string permissions(Side side, const std::string& subject, const std::string
                      active ? "parent" : "wearer", subject, xml_time(validity.from), xml_time(validity.until),
                      criteria("publish", active ? of_active : of_passive, partition),
                      criteria("subscribe", active ? of_passive : of_active, partition));
+}
+
+std::optional<Validity> validity_in(const std::string& permissions) {
+  const auto from = time_within(permissions, "not_before");
+  const auto until = time_within(permissions, "not_after");
+  if (!from || !until) return {};
+  return Validity{*from, *until};
 }
 
 }  // namespace telehug

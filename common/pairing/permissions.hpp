@@ -4,6 +4,7 @@
 // (permissions, 9.4.1.3).
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "common/messages.hpp"
@@ -19,5 +20,7 @@ namespace telehug {
 // else. subject: as subject_of() tells it.
 [[nodiscard]] std::string permissions(Side side, const std::string& subject, const std::string& partition,
                                       const Validity& validity);
+// For how long they are given, as the text says it, signed or not.
+[[nodiscard]] std::optional<Validity> validity_in(const std::string& permissions);
 
 }  // namespace telehug

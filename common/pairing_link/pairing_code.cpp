@@ -6,6 +6,7 @@
 #include <openssl/sha.h>
 
 #include <algorithm>
+#include <cctype>
 #include <span>
 #include <stdexcept>
 
@@ -14,6 +15,7 @@ namespace telehug {
 namespace {
 
 constexpr std::string_view alphabet = "0123456789ABCDEFGHJKMNPQRSTVWXYZ";
+constexpr std::string_view qr_prefix = "TELEHUG:PAIR:";
 constexpr std::size_t group_length = 5;
 constexpr std::size_t content_bytes = 16 + 4 + 2;
 constexpr std::size_t checksum_bytes = 3;  // makes 25 bytes: 40 letters without a rest
@@ -33,6 +35,12 @@ char as_meant(char letter) {
   if (letter == 'O') return '0';
   if (letter == 'I' || letter == 'L') return '1';
   return letter;
+}
+
+std::string_view without_qr_prefix(std::string_view text) {
+  const auto upper = [](char letter) { return std::toupper(static_cast<unsigned char>(letter)); };
+  const bool has_it = std::ranges::equal(text.substr(0, qr_prefix.size()), qr_prefix, {}, upper);
+  return has_it ? text.substr(qr_prefix.size()) : text;
 }
 
 bool separates(char letter) {
@@ -67,7 +75,12 @@ std::string to_text(const PairingCode& code) {
   return text;
 }
 
+std::string to_qr_text(const PairingCode& code) {
+  return std::string(qr_prefix) + to_text(code);
+}
+
 Result<PairingCode> parse_pairing_code(std::string_view text) {
+  text = without_qr_prefix(text);
   if (text.size() > longest_text)
     return Error{fmt::format("a pairing code has {} letters and digits; this is longer", letters)};
   Bytes bytes{};

@@ -28,7 +28,10 @@ struct PairingCode {
 // Eight groups of five letters and digits that are hard to confuse (Crockford's base 32), with a checksum.
 [[nodiscard]] std::string to_text(const PairingCode& code);
 
-// Takes it as people write it: any case, spaces and dashes anywhere, O for 0, I and L for 1.
+// What a QR code of it holds: "TELEHUG:PAIR:" and the code, in letters that such a code stores compactly.
+[[nodiscard]] std::string to_qr_text(const PairingCode& code);
+
+// Takes it as people write it: any case, spaces and dashes anywhere, O for 0, I and L for 1; or as a QR code holds it.
 [[nodiscard]] Result<PairingCode> parse_pairing_code(std::string_view text);
 
 // "192.168.1.20:4711"

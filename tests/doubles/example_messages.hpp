@@ -75,4 +75,10 @@ inline StopAll example_stop() {
       .session = example_session, .side = Side::active, .sequence = 2, .stop = true, .reason = "the wearer's button"};
 }
 
+inline PairRenewal example_renewal() {
+  return {.session = other_session,
+          .certificate = "-----BEGIN CERTIFICATE-----\nMIIB\n-----END CERTIFICATE-----\n",
+          .permissions = "MIME-Version: 1.0\r\n\r\n<dds/>\r\n"};
+}
+
 }  // namespace telehug

@@ -16,6 +16,10 @@ telehug_test(test_stop_switch KIND integration SUBJECT link
   SOURCES integration/daemon/stop_switch_test.cpp
   DEPS telehug_daemon telehug_peer)
 
+telehug_test(test_renewal_link KIND integration SUBJECT link
+  SOURCES integration/daemon/renewal_link_test.cpp
+  DEPS telehug_daemon)
+
 telehug_test(test_dds_secured KIND integration SUBJECT link
   SOURCES integration/dds/secured_test.cpp
   DEPS telehug_dds telehug_pairing)

@@ -29,12 +29,17 @@ telehug_test(test_peer_link KIND unit SUBJECT link
   DEPS telehug_peer_link)
 
 telehug_test(test_pairing KIND unit SUBJECT link
-  SOURCES unit/pairing/pair_store_test.cpp
+  SOURCES unit/pairing/pair_store_test.cpp unit/pairing/renewal_test.cpp
   DEPS telehug_pairing nlohmann_json::nlohmann_json OpenSSL::Crypto)
 
 telehug_test(test_pairing_link KIND unit SUBJECT link
   SOURCES unit/pairing_link/pairing_code_test.cpp unit/pairing_link/pairing_exchange_test.cpp
   DEPS telehug_pairing_link OpenSSL::SSL)
+
+telehug_test(test_qr_code KIND unit SUBJECT link
+  SOURCES unit/pairing_link/qr_code_test.cpp
+  DEPS telehug_pairing_link PkgConfig::zxing)
+
 telehug_test(test_membership KIND unit SUBJECT link
   SOURCES unit/daemon/connections_test.cpp unit/daemon/membership_test.cpp
   DEPS telehug_daemon)

@@ -45,6 +45,30 @@ TEST(Paired, DaemonsFeelTouchesAndTellTheSamePhrase) {
   EXPECT_EQ(passive["pair"]["name"], "Grandma");
 }
 
+TEST(Paired, ThatEndsInAWeekIsRenewedWhileItWorks) {
+  RunningPair pair;
+  PairStore parent = pair.pairs(Side::active);
+  PairStore wearer = pair.pairs(Side::passive);
+  const WallTime paired = wall_time() - std::chrono::hours(24 * 358);
+  const auto granted = wearer.grant(parent.request("Grandma").value(), "Mia", paired).value();
+  const Pair before = parent.accept(granted.grant, paired).value();
+  ASSERT_TRUE(pair.start_all()) << pair.logs();
+  EXPECT_TRUE(eventually([&] { return present(before).expires > before.expires + std::chrono::hours(24 * 300); }))
+      << pair.logs();
+  for (const Side side : {Side::active, Side::passive}) {
+    EXPECT_EQ(pair.status(side)["pair"]["expires"], pair.status(Side::active)["pair"]["expires"]);
+    EXPECT_FALSE(pair.complains(side, "ends on")) << pair.logs();
+    EXPECT_EQ(pair.status(side)["link"]["replaced"], 0);
+  }
+  EXPECT_TRUE(pair.felt());
+  // Started anew they meet with the new files.
+  pair.active.reset();
+  pair.passive.reset();
+  pair.start_passive();
+  pair.start_active();
+  EXPECT_TRUE(eventually([&] { return pair.felt(); })) << pair.logs();
+}
+
 TEST(Paired, RevokingOnTheWearersPcSilencesTheJacketAtOnceAndEndsTheDaemon) {
   RunningPair pair;
   pair.pair_up();

@@ -47,6 +47,16 @@ class PairCommand : public testing::Test {
     EXPECT_EQ(parents[0]["name"], "Kim");
     EXPECT_EQ(wearers[0]["name"], "Mum");
   }
+  void pair_up_by_texts() const {
+    ASSERT_EQ(run("request --name Mum" + on("active"), "/dev/null", "request.txt"), 0) << content("errors.txt");
+    ASSERT_EQ(run("grant --name Kim" + on("passive"), folder_ / "request.txt", "grant.txt"), 0)
+        << content("errors.txt");
+    ASSERT_EQ(run("finish" + on("active"), folder_ / "grant.txt"), 0) << content("errors.txt");
+  }
+  void expect_refused(const std::string& arguments, const std::string& why) const {
+    EXPECT_EQ(run(arguments), 9);
+    EXPECT_NE(content("errors.txt").find(why), std::string::npos) << content("errors.txt");
+  }
   [[nodiscard]] ChildProgram invite() const {
     return ChildProgram({TELEHUG_BIN "/telehug", "pair", "invite", "--json", "--side", "passive", "--folder",
                          (folder_ / "passive").string(), "--address", "127.0.0.1", "--name", "Kim"});
@@ -72,10 +82,54 @@ TEST_F(PairCommand, InvitesAcceptsListsAndRevokes) {
 }
 
 TEST_F(PairCommand, PairsWithoutAConnection) {
-  ASSERT_EQ(run("request --name Mum" + on("active"), "/dev/null", "request.txt"), 0) << content("errors.txt");
-  ASSERT_EQ(run("grant --name Kim" + on("passive"), folder_ / "request.txt", "grant.txt"), 0) << content("errors.txt");
-  ASSERT_EQ(run("finish --file " + (folder_ / "grant.txt").string() + on("active")), 0) << content("errors.txt");
+  pair_up_by_texts();
   expect_one_pair_on_both();
+}
+
+TEST_F(PairCommand, InvitesByAQrCodeWhoseTextItAccepts) {
+  const auto svg = folder_ / "code.svg";
+  const ChildProgram inviter({TELEHUG_BIN "/telehug", "pair", "invite", "--qr", "--qr-svg", svg.string(), "--side",
+                              "passive", "--folder", (folder_ / "passive").string(), "--address", "127.0.0.1"});
+  int lines = 0;
+  std::string line = inviter.read_line();
+  for (; line.starts_with('\x1b'); line = inviter.read_line())
+    ++lines;
+  EXPECT_EQ(lines, 19);
+  EXPECT_NE(content("code.svg").find("</svg>"), std::string::npos);
+  EXPECT_EQ(std::filesystem::status(svg).permissions(), std::filesystem::perms(0600));
+  EXPECT_EQ(run("accept telehug:pair:" + line + on("active")), 0) << content("errors.txt");
+}
+
+TEST_F(PairCommand, RenewsAPairByHand) {
+  pair_up_by_texts();
+  const std::string id = pairs("active").at(0).at("id");
+  // What was paired within this very second ends no later when it is renewed.
+  const std::string expires = pairs("active").at(0).at("expires");
+  ASSERT_EQ(run("renew Mum --json" + on("passive"), "/dev/null", "renewal.txt"), 0) << content("errors.txt");
+  EXPECT_EQ(Json::parse(content("errors.txt"))["pair"]["id"], id);
+  ASSERT_EQ(run("finish --json" + on("active"), folder_ / "renewal.txt"), 0) << content("errors.txt");
+  const Json finished = Json::parse(content("out.txt"));
+  EXPECT_EQ(finished["pair"]["id"], id);
+  EXPECT_EQ(finished["renewed"], pairs("passive").at(0).at("expires") != expires);
+  // A second time there is nothing to do.
+  ASSERT_EQ(run("finish" + on("active"), folder_ / "renewal.txt"), 0) << content("errors.txt");
+  EXPECT_NE(content("out.txt").find("(id " + id + ") is valid already until 20"), std::string::npos)
+      << content("out.txt");
+  ASSERT_EQ(run("renew " + id + " --file " + (folder_ / "by-file.txt").string() + on("passive")), 0);
+  EXPECT_EQ(run("finish --file " + (folder_ / "by-file.txt").string() + on("active")), 0) << content("errors.txt");
+  for (const std::string side : {"active", "passive"})
+    EXPECT_TRUE(pairs(side).at(0).at("faults").empty());
+}
+
+TEST_F(PairCommand, SaysWhyAPairCantBeRenewed) {
+  pair_up_by_texts();
+  const std::string id = pairs("passive").at(0).at("id");
+  expect_refused("renew Kim" + on("active"), "is renewed on the wearer's");
+  expect_refused("renew Dad" + on("passive"), "no pair Dad");
+  std::filesystem::remove(folder_ / "passive" / id / "identity_ca.key");
+  expect_refused("renew Mum" + on("passive"), "pair the two PCs again");
+  ASSERT_EQ(run("grant --name Kim" + on("passive"), folder_ / "request.txt"), 0) << content("errors.txt");
+  expect_refused("renew Mum" + on("passive"), "say which by its id: ");
 }
 
 TEST_F(PairCommand, KeepsNothingWhenBothPcsAreAWearers) {
@@ -88,8 +142,7 @@ TEST_F(PairCommand, KeepsNothingWhenBothPcsAreAWearers) {
 }
 
 TEST_F(PairCommand, ListsWhatIsWrongWithAPairAndWhatMendsIt) {
-  ASSERT_EQ(run("request --name Mum" + on("active"), "/dev/null", "request.txt"), 0) << content("errors.txt");
-  ASSERT_EQ(run("grant --name Kim" + on("passive"), folder_ / "request.txt", "grant.txt"), 0) << content("errors.txt");
+  pair_up_by_texts();
   EXPECT_TRUE(pairs("passive").at(0).at("faults").empty());
   const std::string id = pairs("passive").at(0).at("id");
   std::filesystem::remove(folder_ / "passive" / id / "permissions.p7s");

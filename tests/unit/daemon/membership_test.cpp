@@ -130,5 +130,19 @@ TEST_F(AMembership, AreOverWhenThePairExpiresOrIsRevoked) {
   EXPECT_THAT(pair_over(paired, now).value(), HasSubstr("revoked"));
 }
 
+TEST_F(AMembership, GoesOnWhenThePairWasRenewedMeanwhile) {
+  constexpr auto day = std::chrono::hours(24);
+  const Pair pair = pair_with("Grandma");
+  const Membership paired = only();
+  EXPECT_FALSE(pair_end_problem(*paired.pair, pair.expires - 15 * day));
+  EXPECT_THAT(pair_end_problem(*paired.pair, pair.expires - 13 * day)->dump(),
+              testing::AllOf(HasSubstr("Grandma ends on 2028-01-15"), HasSubstr("pair renew " + pair.id)));
+  ASSERT_TRUE(PairStore(config.pairs_folder, Side::passive).renew(pair, pair.expires - 10 * day));
+  EXPECT_FALSE(pair_end_problem(*paired.pair, pair.expires - 13 * day));
+  EXPECT_EQ(pair_json(*paired.pair)["expires"], "2029-01-04");
+  EXPECT_FALSE(pair_over(paired, pair.expires + 300 * day));
+  EXPECT_THAT(pair_over(paired, pair.expires + 400 * day).value(), HasSubstr("expired on 2029-01-04"));
+}
+
 }  // namespace
 }  // namespace telehug

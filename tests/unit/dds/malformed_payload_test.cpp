@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <cstring>
+#include <fstream>
+#include <iterator>
 #include <random>
 #include <vector>
 
@@ -44,6 +46,22 @@ TEST(APayload, OfAMessageIsIntact) {
   TouchEvent event;
   EXPECT_EQ(from_wire(sample.wire, event), nullptr);
   EXPECT_EQ(event.sequence, example_touch().sequence);
+}
+
+// The encoding is what the other side's version understands: it must not change unnoticed.
+TEST(APayload, HasTheBytesThatTheFuzzersCorpusKeeps) {
+  const auto kept = [](const char* name) {
+    std::ifstream file(std::string(TELEHUG_SOURCE "/tests/fuzz/corpus/dds/") + name, std::ios::binary);
+    Bytes bytes{std::istreambuf_iterator<char>(file), {}};
+    if (!bytes.empty()) bytes.erase(bytes.begin());  // chooses the topic
+    return bytes;
+  };
+  EXPECT_EQ(encoded(example_touch()), kept("touch"));
+  EXPECT_EQ(encoded(example_felt()), kept("felt"));
+  EXPECT_EQ(encoded(example_heartbeat()), kept("heartbeat"));
+  EXPECT_EQ(encoded(example_status()), kept("status"));
+  EXPECT_EQ(encoded(example_stop()), kept("stop"));
+  EXPECT_EQ(encoded(example_renewal()), kept("renewal"));
 }
 
 TEST(APayload, ThatEndsTooEarlyIsNotIntact) {
@@ -103,6 +121,7 @@ TEST(APayload, OfAnyBytesHarmsNothing) {
   feed_any_bytes(example_heartbeat(), 3);
   feed_any_bytes(example_status(), 4);
   feed_any_bytes(example_stop(), 5);
+  feed_any_bytes(example_renewal(), 6);
 }
 
 }  // namespace

@@ -144,5 +144,23 @@ TEST(AStopAll, IsRefusedWithTheReason) {
                          });
 }
 
+TEST(ARenewal, IsRefusedWithTheReason) {
+  constexpr const char* missing = "a part of the renewal is missing";
+  constexpr const char* too_long = "a part of the renewal is too long";
+  constexpr const char* no_text = "a part of the renewal is no plain text";
+  expect_faults<PairRenewal>(
+      example_renewal(),
+      {
+          {"the session is not 32 hexadecimal digits", [](auto& renewal) { renewal.session.clear(); }},
+          {missing, [](auto& renewal) { renewal.certificate.clear(); }},
+          {missing, [](auto& renewal) { renewal.permissions.clear(); }},
+          {too_long, [](auto& renewal) { renewal.certificate.append(max_renewed_certificate, 'A'); }},
+          {too_long, [](auto& renewal) { renewal.permissions.append(max_renewed_permissions, 'A'); }},
+          {no_text, [](auto& renewal) { renewal.certificate += "\x1b[2J"; }},
+          {no_text, [](auto& renewal) { renewal.permissions += "caf\xc3\xa9"; }},
+          {no_text, [](auto& renewal) { renewal.permissions += "\x7f"; }},
+      });
+}
+
 }  // namespace
 }  // namespace telehug

@@ -101,6 +101,18 @@ TEST(TheWireForm, KeepsEveryFieldOfAStatusAndAStop) {
   EXPECT_EQ(stop_back.reason, stop.reason);
 }
 
+TEST(TheWireForm, KeepsEveryFieldOfARenewal) {
+  PairRenewal renewal = example_renewal();
+  for (const std::size_t more : {std::size_t{0}, max_renewed_certificate - renewal.certificate.size()}) {
+    renewal.certificate.append(more, 'A');
+    renewal.permissions.append(2 * more, 'B');
+    const PairRenewal back = there_and_back(renewal, v1::PairRenewal());
+    EXPECT_EQ(back.session, renewal.session);
+    EXPECT_EQ(back.certificate, renewal.certificate);
+    EXPECT_EQ(back.permissions, renewal.permissions);
+  }
+}
+
 TEST(TheWireForm, LeavesNothingOfALongerTextBehindAShorterOne) {
   SideStatus status = example_status();
   v1::SideStatus wire;
@@ -164,6 +176,11 @@ TEST(TheWireForm, IsRefusedBeyondItsBoundsAndWithUnknownEnums) {
   to_wire(example_felt(), wire_felt);
   wire_felt.actuators().resize(17);
   EXPECT_STREQ(from_wire(wire_felt, felt), "there are too many actuators");
+  PairRenewal long_one = example_renewal();
+  long_one.certificate.append(max_renewed_certificate, 'A');
+  v1::PairRenewal wire_renewal;
+  to_wire(long_one, wire_renewal);
+  EXPECT_EQ(wire_renewal.certificate().size(), max_renewed_certificate);
   wire.session({});
   EXPECT_STREQ(from_wire(wire, event), "the session is not 32 hexadecimal digits");
 }

@@ -34,6 +34,20 @@ TEST(PairingCode, IsReadAsPeopleWriteIt) {
   EXPECT_EQ(read->secret, code.secret);
 }
 
+TEST(PairingCode, IsReadAsItsQrCodeHoldsIt) {
+  const PairingCode code = make_pairing_code(somewhere);
+  std::string text = to_qr_text(code);
+  EXPECT_EQ(text, "TELEHUG:PAIR:" + to_text(code));
+  for (int pass = 0; pass < 2; ++pass) {
+    const auto read = parse_pairing_code(text);
+    ASSERT_TRUE(read) << read.error().message;
+    EXPECT_EQ(read->secret, code.secret);
+    std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return std::tolower(c); });
+  }
+  EXPECT_FALSE(parse_pairing_code("TELEHUG:PAIR:"));
+  EXPECT_FALSE(parse_pairing_code("TELEHUG:PAIR:TELEHUG:PAIR:" + to_text(code)));
+}
+
 TEST(PairingCode, TellsATypingErrorInAnyOfItsLetters) {
   const auto text = to_text(PairingCode{.secret = {1, 2, 3}, .inviter = somewhere});
   for (std::size_t place = 0; place < text.size(); ++place) {
