@@ -2,6 +2,10 @@
 #
 # telehug's wire against somebody else's implementations: programs on Cyclone DDS (EPL-2.0 or EDL-1.0; nothing but these
 # test programs is linked with it), and tshark, which runs as it is.
+telehug_test(test_on_the_wire KIND integration SUBJECT link
+  SOURCES interop/on_the_wire_test.cpp interop/dissection.cpp
+  DEPS running_pair netlab fmt::fmt)
+
 # Building without the packages of the tests is possible, as deploy/demo does.
 find_package(CycloneDDS QUIET)
 find_program(IDLC idlc)
