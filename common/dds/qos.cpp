@@ -156,7 +156,11 @@ dds::DomainParticipantQos participant_qos(const DdsSettings& settings) {
     throw std::invalid_argument("peers are listed, but only loopback is allowed: remove one of the two settings");
   }
   dds::DomainParticipantQos qos;
-  qos.name(settings.side == Side::active ? "telehug-active" : "telehug-passive");
+  // Announcements are readable on the network even with DDS Security, each second. Fast DDS would put the names of this
+  // PC and its user there.
+  qos.properties().properties().clear();
+  const char* side = settings.side == Side::active ? "telehug-active" : "telehug-passive";
+  qos.name(settings.security ? "" : side);
 
   // UDPv4 only. Shared memory would leave world-readable files behind after a crash.
   qos.transport().use_builtin_transports = false;

@@ -2,13 +2,18 @@
 #pragma once
 
 #include <fcntl.h>
+#include <poll.h>
 #include <spawn.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
+#include <chrono>
 #include <csignal>
+#include <cstdint>
 #include <cstring>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -70,6 +75,25 @@ class ChildProgram {
     return line;
   }
 
+  // The next line that it prints; nothing if that takes longer or it has ended. Not to be mixed with the above.
+  std::optional<std::string> read_line_within(std::chrono::milliseconds longest) {
+    const auto give_up = std::chrono::steady_clock::now() + longest;
+    for (;;) {
+      if (const std::size_t end = unread_.find('\n'); end != std::string::npos) {
+        std::string line = unread_.substr(0, end);
+        unread_.erase(0, end + 1);
+        return line;
+      }
+      const auto left = std::chrono::ceil<std::chrono::milliseconds>(give_up - std::chrono::steady_clock::now());
+      pollfd output{output_, POLLIN, 0};
+      if (::poll(&output, 1, static_cast<int>(std::max<std::int64_t>(left.count(), 0))) != 1) return std::nullopt;
+      std::array<char, 4096> part{};
+      const ssize_t size = ::read(output_, part.data(), part.size());
+      if (size <= 0) return std::nullopt;
+      unread_.append(part.data(), static_cast<std::size_t>(size));
+    }
+  }
+
  private:
   static std::vector<char*> pointers(std::vector<std::string>& words) {
     std::vector<char*> result;
@@ -88,6 +112,7 @@ class ChildProgram {
 
   pid_t pid_ = 0;
   int output_ = -1;
+  std::string unread_;
 };
 
 }  // namespace telehug

@@ -26,8 +26,13 @@ class Inbox {
 
   // False if there are still fewer messages after `patience`.
   bool wait_for(std::size_t count, Duration patience = 10s) {
+    return wait_until([&](const std::vector<T>& messages) { return messages.size() >= count; }, patience);
+  }
+
+  // False if what came until then is still not so.
+  bool wait_until(const std::function<bool(const std::vector<T>&)>& is_so, Duration patience = 10s) {
     std::unique_lock lock(mutex_);
-    return arrived_.wait_for(lock, patience, [&] { return messages_.size() >= count; });
+    return arrived_.wait_for(lock, patience, [&] { return is_so(messages_); });
   }
 
   std::vector<T> messages() const {

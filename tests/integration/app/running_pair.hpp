@@ -79,6 +79,8 @@ class RunningPair {
   [[nodiscard]] std::string jacket_state() const;
   [[nodiscard]] std::filesystem::path socket(Side side) const;
   [[nodiscard]] std::uint32_t domain() const noexcept { return domain_.id(); }
+  // Of both sides while they are no pair.
+  [[nodiscard]] const std::string& partition() const noexcept { return domain_.partition(); }
 
   [[nodiscard]] std::vector<PinChange> pins() const;
   // Channels whose pins run now.
