@@ -14,9 +14,11 @@ struct PeerConfig {
   int domain = 77;        // DDS domain
   std::string partition;  // DDS partition: pairs on one network that must not hear each other take different ones
   bool loopback_only = false;
-  std::string pair;          // id of the pair; empty: the only one
-  std::string pairs_folder;  // see pairs_folder()
-  std::string addresses;     // read it with parse_addresses(); only if not loopback_only
+  std::string pair;            // id of the pair; empty: the only one
+  std::string pairs_folder;    // see pairs_folder()
+  std::string addresses;       // read it with parse_addresses(); only if not loopback_only
+  std::string public_address;  // IPv4, of the router that forwards UDP ports to this PC; empty: none does
+  int public_port = 0;         // the first of two; 0 without public_address
 };
 
 struct ControlConfig {

@@ -43,8 +43,11 @@ struct ScreenRegion {
 // "X,Y,WIDTH,HEIGHT" in px; empty: none.
 [[nodiscard]] Result<std::optional<ScreenRegion>> parse_screen_region(std::string_view text);
 
-// IPv4 addresses with commas between them; empty: none.
+// IPv4 addresses with commas between them, each with ":PORT" behind it if wanted; empty: none.
 [[nodiscard]] Result<std::vector<std::string>> parse_addresses(std::string_view text);
+
+// One IPv4 address, or empty.
+[[nodiscard]] Result<std::string> parse_address(std::string_view text);
 
 enum class JacketLinkKind { serial, simulated, recorded };
 

@@ -64,6 +64,8 @@ Result<Membership> membership(const PeerConfig& config, Side side, WallTime now)
   member.dds.partition = member.pair->partition;
   member.dds.loopback_only = config.loopback_only;
   if (auto addresses = parse_addresses(config.addresses)) member.dds.peers = *std::move(addresses);
+  if (!config.public_address.empty())
+    member.dds.public_address = {config.public_address, static_cast<std::uint16_t>(config.public_port)};
   return member;
 }
 

@@ -3,12 +3,16 @@
 # Two homes with a network that fails on command between them. They need the right to make network namespaces (root),
 # and are skipped without it.
 add_library(netlab STATIC netlab/captured_packet.cpp netlab/ethernet_port.cpp netlab/faulty_way.cpp
-  netlab/net_namespace.cpp netlab/packet_mangler.cpp netlab/two_homes.cpp)
+  netlab/hidden_pc.cpp netlab/net_namespace.cpp netlab/packet_mangler.cpp netlab/run_inside.cpp netlab/two_homes.cpp)
 target_include_directories(netlab PUBLIC ${CMAKE_CURRENT_SOURCE_DIR})
 target_link_libraries(netlab PUBLIC telehug_common)
 telehug_settings(netlab)
 
 telehug_test(test_netlab KIND integration SUBJECT link SOURCES integration/netlab/two_homes_test.cpp DEPS netlab)
+
+telehug_test(test_forwarded_ports KIND integration SUBJECT link
+  SOURCES integration/ways/forwarded_ports_test.cpp
+  DEPS running_pair netlab)
 
 # It measures how long real processes take: beside other tests it would measure those, with sanitizers nothing.
 if(NOT TELEHUG_SANITIZER)

@@ -9,11 +9,10 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <stdexcept>
 #include <system_error>
 #include <utility>
 
-#include "doubles/child_program.hpp"
+#include "netlab/run_inside.hpp"
 
 namespace telehug {
 namespace {
@@ -25,20 +24,12 @@ constexpr int most_frames_at_once = 256;
 constexpr std::uint8_t ipv4_multicast = 0x01;
 
 void ip(const NetNamespace& network, std::vector<std::string> words) {
-  const InsideNamespace inside(network);
-  std::string command = "ip";
-  for (const std::string& word : words)
-    command += " " + word;
   words.insert(words.begin(), "ip");
-  if (ChildProgram(words).wait_for_end() != 0) throw std::runtime_error("failed: " + command);
+  run_inside(network, words);
 }
 
 Home other(Home home) {
   return home == Home::parent ? Home::child : Home::parent;
-}
-
-std::string path_of(const NetNamespace& network) {
-  return "/proc/" + std::to_string(getpid()) + "/fd/" + std::to_string(network.descriptor());
 }
 
 }  // namespace

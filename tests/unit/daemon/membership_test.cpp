@@ -56,6 +56,17 @@ TEST_F(Memberships, OfAPairUseItsFilesAndItsPartition) {
   EXPECT_EQ(paired.dds.peers, std::vector<std::string>{"192.0.2.7"});
 }
 
+TEST_F(Memberships, OfAPairTellTheForwardedPorts) {
+  (void)pair_with("Grandma");
+  EXPECT_FALSE(member()->dds.public_address);
+  config.public_address = "198.51.100.7";
+  config.public_port = 7600;
+  const auto known_as = member()->dds.public_address;
+  ASSERT_TRUE(known_as);
+  EXPECT_EQ(known_as->address, "198.51.100.7");
+  EXPECT_EQ(known_as->port, 7600);
+}
+
 TEST_F(Memberships, AreAskedForIfThereAreSeveral) {
   const Pair first = pair_with("Grandma");
   const Pair second = pair_with("Dad");
