@@ -8,6 +8,7 @@
 
 #include "config/locator.hpp"
 #include "config/places.hpp"
+#include "pairing/wireguard.hpp"
 
 namespace telehug {
 namespace {
@@ -64,6 +65,8 @@ Result<Membership> membership(const PeerConfig& config, Side side, WallTime now)
   member.dds.partition = member.pair->partition;
   member.dds.loopback_only = config.loopback_only;
   if (auto addresses = parse_addresses(config.addresses)) member.dds.peers = *std::move(addresses);
+  if (const auto tunnel = tunnel_of(*member.pair); tunnel && !config.loopback_only)
+    member.dds.peers.push_back(tunnel->peer_address);
   if (!config.public_address.empty())
     member.dds.public_address = {config.public_address, static_cast<std::uint16_t>(config.public_port)};
   return member;

@@ -29,7 +29,7 @@ telehug_test(test_peer_link KIND unit SUBJECT link
   DEPS telehug_peer_link)
 
 telehug_test(test_pairing KIND unit SUBJECT link
-  SOURCES unit/pairing/pair_store_test.cpp
+  SOURCES unit/pairing/pair_store_test.cpp unit/pairing/wireguard_test.cpp
   DEPS telehug_pairing nlohmann_json::nlohmann_json OpenSSL::Crypto)
 
 telehug_test(test_pairing_link KIND unit SUBJECT link

@@ -7,6 +7,7 @@
 #include <fstream>
 
 #include "doubles/temporary_folder.hpp"
+#include "pairing/wireguard.hpp"
 
 namespace telehug {
 namespace {
@@ -65,6 +66,18 @@ TEST_F(Memberships, OfAPairTellTheForwardedPorts) {
   ASSERT_TRUE(known_as);
   EXPECT_EQ(known_as->address, "198.51.100.7");
   EXPECT_EQ(known_as->port, 7600);
+}
+
+TEST_F(Memberships, OfAPairWithATunnelFindThePeerInIt) {
+  PairStore parent(folder / "parent", Side::active);
+  const auto granted =
+      PairStore(config.pairs_folder, Side::passive).grant(parent.request("Grandma").value(), "Mia", now, "home:51820");
+  const std::string in_tunnel = tunnel_of(granted->pair)->peer_address;
+  EXPECT_EQ(member()->dds.peers, (std::vector<std::string>{"192.0.2.7", in_tunnel}));
+  config.addresses.clear();
+  EXPECT_EQ(member()->dds.peers, std::vector<std::string>{in_tunnel});
+  config.loopback_only = true;
+  EXPECT_TRUE(member()->dds.peers.empty());
 }
 
 TEST_F(Memberships, AreAskedForIfThereAreSeveral) {
