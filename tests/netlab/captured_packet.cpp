@@ -27,7 +27,8 @@ std::optional<UdpContent> udp_content(const Bytes& frame) {
   const std::size_t length = big_endian(frame, start + 4);
   if (length < udp || frame.size() < start + length) return std::nullopt;
   const auto first = frame.begin() + static_cast<std::ptrdiff_t>(start + udp);
-  return UdpContent{big_endian(frame, start + 2), Bytes(first, first + static_cast<std::ptrdiff_t>(length - udp))};
+  return UdpContent{big_endian(frame, start + 2), big_endian(frame, start),
+                    Bytes(first, first + static_cast<std::ptrdiff_t>(length - udp))};
 }
 
 }  // namespace telehug

@@ -19,6 +19,7 @@ struct CapturedPacket {
 
 struct UdpContent {
   std::uint16_t port = 0;  // where it goes
+  std::uint16_t from_port = 0;
   Bytes payload;
 };
 

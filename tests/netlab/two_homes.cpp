@@ -2,6 +2,7 @@
 #include "netlab/two_homes.hpp"
 
 #include <arpa/inet.h>
+#include <net/ethernet.h>
 #include <netinet/in.h>
 #include <poll.h>
 #include <sys/socket.h>
@@ -26,6 +27,11 @@ constexpr std::uint8_t ipv4_multicast = 0x01;
 void ip(const NetNamespace& network, std::vector<std::string> words) {
   words.insert(words.begin(), "ip");
   run_inside(network, words);
+}
+
+bool is_arp(const Bytes& frame) {
+  constexpr std::size_t type = 12;  // where an Ethernet frame says what it carries
+  return frame.size() > type + 1 && frame[type] == ETHERTYPE_ARP >> 8 && frame[type + 1] == (ETHERTYPE_ARP & 0xFF);
 }
 
 Home other(Home home) {
@@ -72,6 +78,18 @@ void TwoHomes::put_in_plug(Home home) {
 void TwoHomes::stop_multicast() {
   const std::lock_guard lock(mutex_);
   multicast_passes_ = false;
+}
+
+void TwoHomes::let_only_pass(std::uint16_t udp_port) {
+  const std::lock_guard lock(mutex_);
+  only_port_ = udp_port;
+}
+
+bool TwoHomes::passes(const Bytes& frame) const {
+  if (!multicast_passes_ && frame[0] == ipv4_multicast) return false;
+  if (!only_port_ || is_arp(frame)) return true;
+  const auto datagram = udp_content(frame);
+  return datagram && (datagram->port == *only_port_ || datagram->from_port == *only_port_);
 }
 
 void TwoHomes::set(Home from, const WayFaults& faults) {
@@ -147,7 +165,7 @@ void TwoHomes::take_in(Home from) {
     Bytes frame = side(from).port->receive();
     if (frame.empty()) return;
     const std::lock_guard lock(mutex_);
-    if (!multicast_passes_ && frame[0] == ipv4_multicast) continue;
+    if (!passes(frame)) continue;
     for (const Timestamp arrival : side(from).way.arrivals(SteadyClock{}.now())) {
       if (flying_.size() < most_flying) flying_.push({arrival, ++count_, from, frame});
     }
