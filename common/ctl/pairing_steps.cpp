@@ -11,6 +11,7 @@
 
 #include "ctl/own_address.hpp"
 #include "ctl/plain_text.hpp"
+#include "network/ways_in.hpp"
 #include "pairing/pairing.hpp"
 #include "pairing/wireguard.hpp"
 #include "pairing_link/pairing_exchange.hpp"
@@ -52,8 +53,7 @@ void print_tunnel(std::FILE* to, const PairTunnel& tunnel) {
              "telehug then finds the other PC in it by itself, at {2}.\n",
              tunnel.file.string(), tunnel.interface, tunnel.peer_address);
   if (tunnel.listen_port.empty()) return;
-  fmt::print(to, "This PC is dialled: its router must forward UDP port {} to it (or let it in, with IPv6).\n",
-             tunnel.listen_port);
+  fmt::print(to, "The other PC dials this one. {}\n", advice(ways_in(lasting_addresses()), tunnel.listen_port));
 }
 
 void print_end_of_tunnel(const PairTunnel& tunnel) {
@@ -70,7 +70,9 @@ void print_pair(std::FILE* to, const Pair& pair, bool json) {
       "Paired with {} (id {}).\nPhrase: {}\nRead the phrase to each other: if both PCs show the same words, nobody "
       "sits in between; if not, take it back with `telehug pair revoke {}`.\n",
       plain_text(pair.name), pair.id, pair.phrase, pair.id);
-  if (const auto tunnel = tunnel_of(pair)) print_tunnel(to, *tunnel);
+  if (const auto tunnel = tunnel_of(pair)) return print_tunnel(to, *tunnel);
+  fmt::print(to, "If the other PC is in another home, the two need a tunnel: pair them again with --wireguard. {}\n",
+             advice(ways_in(lasting_addresses()), usual_tunnel_port));
 }
 
 // A pair that can't be read can still be revoked.

@@ -24,7 +24,6 @@ using Json = nlohmann::json;
 constexpr std::size_t key_bytes = 32;
 constexpr std::size_t key_letters = 44;  // in Base64
 constexpr std::size_t longest_host = 253;
-constexpr std::string_view usual_port = "51820";
 constexpr std::string_view listens = "ListenPort = ";
 
 using KeyBytes = std::array<unsigned char, key_bytes>;
@@ -87,14 +86,14 @@ std::string port_of(const std::string& endpoint) {
 }  // namespace
 
 Result<std::string> parse_tunnel_endpoint(const std::string& text) {
-  if (is_ipv6(text)) return fmt::format("[{}]:{}", text, usual_port);
+  if (is_ipv6(text)) return fmt::format("[{}]:{}", text, usual_tunnel_port);
   const std::size_t bracket = text.find(']');
   const bool bracketed = text.starts_with('[') && bracket != std::string::npos;
   const std::size_t host_end = bracketed ? bracket + 1 : std::min(text.find(':'), text.size());
   const std::string host = text.substr(0, host_end);
   const bool good_host = bracketed ? is_ipv6(text.substr(1, bracket - 1)) : is_host(host);
   const std::string rest = text.substr(host_end);
-  if (good_host && rest.empty()) return fmt::format("{}:{}", host, usual_port);
+  if (good_host && rest.empty()) return fmt::format("{}:{}", host, usual_tunnel_port);
   if (good_host && rest.front() == ':' && is_port(rest.substr(1))) return text;
   return Error{
       fmt::format("\"{}\" is not where a PC can be dialled: it is a name, an IPv4 or an IPv6 address, with a "

@@ -15,6 +15,8 @@
 
 namespace telehug {
 
+inline constexpr const char* usual_tunnel_port = "51820";
+
 // Tells the other PC what it needs of this one. Keys are X25519, in Base64.
 struct TunnelOffer {
   std::string public_key;
@@ -27,7 +29,7 @@ struct TunnelEnd {
   TunnelOffer offer;
 };
 
-// "HOST", "HOST:PORT", "2001:db8::7" or "[2001:db8::7]:PORT" with the port filled in (WireGuard's usual 51820).
+// "HOST", "HOST:PORT", "2001:db8::7" or "[2001:db8::7]:PORT" with the port filled in.
 [[nodiscard]] Result<std::string> parse_tunnel_endpoint(const std::string& text);
 
 // With fresh keys. Throws std::runtime_error if OpenSSL can't.

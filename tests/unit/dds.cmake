@@ -11,6 +11,10 @@ telehug_test(test_suspend_detector KIND unit SUBJECT link
   SOURCES unit/network/suspend_detector_test.cpp
   DEPS telehug_network)
 
+telehug_test(test_ways_in KIND unit SUBJECT link
+  SOURCES unit/network/ways_in_test.cpp
+  DEPS telehug_network)
+
 telehug_test(test_publish KIND unit SUBJECT link
   SOURCES unit/publish/touch_event_builder_test.cpp doubles/allocation_counter.cpp
   DEPS active_publish)
