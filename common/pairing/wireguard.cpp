@@ -101,7 +101,13 @@ Result<std::string> parse_tunnel_endpoint(const std::string& text) {
                   text)};
 }
 
-TunnelEnd make_tunnel_end(const std::string& endpoint) {
+TunnelEnd make_tunnel_end(const std::string& reachable_at) {
+  std::string endpoint;
+  if (!reachable_at.empty()) {
+    const auto parsed = parse_tunnel_endpoint(reachable_at);
+    if (!parsed) throw std::runtime_error(parsed.error().message);
+    endpoint = *parsed;
+  }
   const KeyHandle key(EVP_PKEY_Q_keygen(nullptr, nullptr, "X25519"));
   KeyBytes secret{};
   KeyBytes open{};

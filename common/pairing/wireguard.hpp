@@ -32,8 +32,8 @@ struct TunnelEnd {
 // "HOST", "HOST:PORT", "2001:db8::7" or "[2001:db8::7]:PORT" with the port filled in.
 [[nodiscard]] Result<std::string> parse_tunnel_endpoint(const std::string& text);
 
-// With fresh keys. Throws std::runtime_error if OpenSSL can't.
-[[nodiscard]] TunnelEnd make_tunnel_end(const std::string& endpoint);
+// With fresh keys. Throws std::runtime_error (a sentence) if OpenSSL can't, or nobody can dial there; empty: nowhere.
+[[nodiscard]] TunnelEnd make_tunnel_end(const std::string& reachable_at);
 
 // To be kept until the other PC answered.
 [[nodiscard]] std::string to_text(const TunnelEnd& end);

@@ -23,7 +23,9 @@ struct UdpContent {
   Bytes payload;
 };
 
-// Nothing if the Ethernet frame holds no whole UDP datagram over IPv4.
+// Nothing if the Ethernet frame holds no whole UDP datagram.
 [[nodiscard]] std::optional<UdpContent> udp_content(const Bytes& frame);
+// ARP, and what does the same for IPv6.
+[[nodiscard]] bool seeks_neighbours(const Bytes& frame);
 
 }  // namespace telehug

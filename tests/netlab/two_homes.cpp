@@ -2,7 +2,6 @@
 #include "netlab/two_homes.hpp"
 
 #include <arpa/inet.h>
-#include <net/ethernet.h>
 #include <netinet/in.h>
 #include <poll.h>
 #include <sys/socket.h>
@@ -27,11 +26,6 @@ constexpr std::uint8_t ipv4_multicast = 0x01;
 void ip(const NetNamespace& network, std::vector<std::string> words) {
   words.insert(words.begin(), "ip");
   run_inside(network, words);
-}
-
-bool is_arp(const Bytes& frame) {
-  constexpr std::size_t type = 12;  // where an Ethernet frame says what it carries
-  return frame.size() > type + 1 && frame[type] == ETHERTYPE_ARP >> 8 && frame[type + 1] == (ETHERTYPE_ARP & 0xFF);
 }
 
 Home other(Home home) {
@@ -87,7 +81,7 @@ void TwoHomes::let_only_pass(std::uint16_t udp_port) {
 
 bool TwoHomes::passes(const Bytes& frame) const {
   if (!multicast_passes_ && frame[0] == ipv4_multicast) return false;
-  if (!only_port_ || is_arp(frame)) return true;
+  if (!only_port_ || seeks_neighbours(frame)) return true;
   const auto datagram = udp_content(frame);
   return datagram && (datagram->port == *only_port_ || datagram->from_port == *only_port_);
 }

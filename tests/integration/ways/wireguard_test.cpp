@@ -124,14 +124,17 @@ class Wireguard : public testing::Test {
   void SetUp() override {
     if (!tunnels_are_permitted()) GTEST_SKIP() << "tunnels need root and /dev/net/tun, which are missing here";
     try {
-      link = std::make_unique<FaultyLink>(TwoHomes::address(Home::child) + ":" + std::to_string(port));
+      link = std::make_unique<FaultyLink>(wearer_at);
     } catch (const std::system_error& error) {
       GTEST_SKIP() << "network namespaces are not permitted here: " << error.what();
     }
-    link->hide(Home::parent);
-    HiddenPc& childs = link->hide(Home::child);
-    if (forwarded) childs.forward(port, port);
     link->homes.let_only_pass(port);
+    connect();
+  }
+  // The PCs with the homes' networks.
+  virtual void connect() {
+    link->hide(Home::parent);
+    link->hide(Home::child).forward(port, port);
   }
   void TearDown() override {
     // The daemons first, which would try to live without it.
@@ -172,14 +175,29 @@ class Wireguard : public testing::Test {
     run_inside(link->network(home(side)), {"nft", rules});
   }
 
-  bool forwarded = true;
+  std::string wearer_at = TwoHomes::address(Home::child) + ":" + std::to_string(port);
   std::unique_ptr<FaultyLink> link;
   std::vector<std::unique_ptr<WireguardTunnel>> ends;
 };
 
 class WireguardHub : public Wireguard {
  protected:
-  WireguardHub() { forwarded = false; }
+  void connect() override {
+    link->hide(Home::parent);
+    link->hide(Home::child);
+  }
+};
+
+class WireguardOverIpv6 : public Wireguard {
+ protected:
+  WireguardOverIpv6() { wearer_at = "2001:db8::2"; }
+  void connect() override {
+    for (const auto& [home, address] :
+         {std::pair(Home::parent, "2001:db8::1/64"), std::pair(Home::child, "2001:db8::2/64")})
+      run_inside(link->network(home), {"ip", "address", "add", address, "dev", "home", "nodad"});
+    link->homes.take_address(Home::parent);
+    link->homes.take_address(Home::child);
+  }
 };
 
 TEST_F(Wireguard, CarriesTouchesBetweenPcsThatNothingElseReaches) {
@@ -239,6 +257,12 @@ TEST_F(WireguardHub, CarriesTouchesBetweenPcsOfWhichNeitherCanBeDialled) {
   run_inside(hub, {"nft", "insert rule ip router through iifname \"hub\" accept"});
   begin_at_hub(Side::passive, end.offer.public_key);
   begin_at_hub(Side::active, end.offer.public_key);
+  EXPECT_TRUE(link->start_all()) << link->pair.logs();
+}
+
+TEST_F(WireguardOverIpv6, CarriesTouchesBetweenHomesWithoutIpv4) {
+  begin(Side::passive);
+  begin(Side::active);
   EXPECT_TRUE(link->start_all()) << link->pair.logs();
 }
 

@@ -99,6 +99,13 @@ TEST_F(Tunnels, AreMadeIfOneSideCanBeDialledWhicheverItIs) {
   }
 }
 
+TEST_F(Tunnels, ListenAtTheUsualPortIfNoneIsSaid) {
+  const auto [here, there] = pair_up("", "2001:db8::7");
+  EXPECT_EQ(value(conf(there), "ListenPort"), "51820");
+  EXPECT_EQ(value(conf(here), "Endpoint"), "[2001:db8::7]:51820");
+  EXPECT_FALSE(parent.request("Grandma", "home:1\nPostUp = reboot"));
+}
+
 TEST_F(Tunnels, AreNotMadeIfNobodyAsks) {
   const auto [here, there] = pair_up("", "");
   EXPECT_FALSE(tunnel_of(here));
