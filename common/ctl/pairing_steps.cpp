@@ -187,6 +187,10 @@ ExitCode pair_list(const PairingWish& wish) {
   for (const auto& pair : pairs) {
     fmt::print("{}  {}  until {}  {}\n", text_of(pair["id"]), text_of(pair["name"]), text_of(pair["expires"]),
                text_of(pair["phrase"]));
+    if (pair.contains("tunnel"))
+      fmt::print("  tunnel {}: this PC is {}, the other {}; {}\n", text_of(pair["tunnel"]["interface"]),
+                 text_of(pair["tunnel"]["address"]), text_of(pair["tunnel"]["peer_address"]),
+                 text_of(pair["tunnel"]["file"]));
     for (const auto& fault : pair["faults"])
       fmt::print("  {}: {}\n  -> {}\n", text_of(fault["file"]), text_of(fault["what"]), text_of(fault["do"]));
   }

@@ -13,7 +13,7 @@ telehug_test(test_netlab KIND integration SUBJECT link SOURCES integration/netla
 
 telehug_test(test_forwarded_ports KIND integration SUBJECT link
   SOURCES integration/ways/forwarded_ports_test.cpp
-  DEPS running_pair netlab)
+  DEPS running_pair netlab telehug_dds)
 
 # It measures how long real processes take: beside other tests it would measure those, with sanitizers nothing.
 if(NOT TELEHUG_SANITIZER)

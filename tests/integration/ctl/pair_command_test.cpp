@@ -88,6 +88,8 @@ TEST_F(PairCommand, MakesATunnelsFilesAndSaysWhatToRun) {
   const std::string interface = pair.at("tunnel").at("interface");
   EXPECT_EQ(pair["tunnel"]["peer_address"], pairs("passive").at(0)["tunnel"]["address"]);
   EXPECT_TRUE(std::filesystem::exists(pair["tunnel"]["file"].get<std::string>()));
+  EXPECT_EQ(run("list" + on("active")), 0);
+  EXPECT_NE(content("out.txt").find("tunnel " + interface), std::string::npos) << content("out.txt");
   const std::string id = pair["id"];
   ASSERT_EQ(run("revoke " + id + on("active")), 0);
   EXPECT_NE(content("out.txt").find("systemctl disable --now wg-quick@" + interface), std::string::npos);

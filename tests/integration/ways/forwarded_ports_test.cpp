@@ -1,12 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Two homes of which routers hide the PCs, and forward two UDP ports to them: peer.public_address, peer.public_port.
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <netinet/in.h>
+#include <sys/socket.h>
+#include <unistd.h>
 
 #include <memory>
 #include <optional>
 #include <system_error>
 
+#include "dds/participant.hpp"
 #include "integration/app/running_pair.hpp"
 #include "netlab/hidden_pc.hpp"
 
@@ -92,6 +97,25 @@ TEST_F(ForwardedPorts, OnOneSideDoNotHelpIfAnotherRouterHidesTheOtherSide) {
   start_passive(childs.network());
   start_active(parents.network());
   EXPECT_FALSE(eventually([&] { return pair.felt(); }, no_longer_hoped_for)) << pair.logs();
+}
+
+// Otherwise DDS takes the next free ones, and nobody knows why nothing arrives.
+TEST_F(ForwardedPorts, ThatAnotherProgramHasAreNamed) {
+  const InsideNamespace inside(homes->network(Home::child));
+  const DdsSettings settings{.side = Side::passive,
+                             .domain_id = pair.domain(),
+                             .loopback_only = false,
+                             .public_address = PublicAddress{TwoHomes::address(Home::child), port}};
+  const int other = socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0);
+  sockaddr_in second{};
+  second.sin_family = AF_INET;
+  second.sin_port = htons(port + 1);
+  ASSERT_EQ(bind(other, reinterpret_cast<const sockaddr*>(&second), sizeof second), 0);
+  EXPECT_THAT([&] { const DdsParticipant participant(settings); },
+              testing::ThrowsMessage<DdsError>(testing::HasSubstr("UDP port 7601")));
+  close(other);
+  EXPECT_NO_THROW(const DdsParticipant participant(settings));
+  EXPECT_NO_THROW(const DdsParticipant participant(settings));
 }
 
 // As when the parent visits: one network, and an address that does not lead there from within.
