@@ -80,9 +80,10 @@ std::optional<PairTunnel> tunnel_of_pair(const PairStore& store, const std::stri
   try {
     for (const Pair& pair : store.list())
       if (pair.id == id) return tunnel_of(pair);
+    return std::nullopt;
   } catch (const std::runtime_error&) {
+    return std::nullopt;
   }
-  return std::nullopt;
 }
 
 // A pairing by connection, as this PC's store does it.

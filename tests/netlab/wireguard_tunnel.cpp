@@ -4,6 +4,7 @@
 #include <fcntl.h>
 #include <unistd.h>
 
+#include <cstdio>
 #include <exception>
 
 #include "netlab/run_inside.hpp"
@@ -26,7 +27,8 @@ WireguardTunnel::WireguardTunnel(const NetNamespace& network, const std::filesys
 WireguardTunnel::~WireguardTunnel() {
   try {
     run_inside(network_, {"ip", "link", "delete", interface_});  // wireguard-go ends with it
-  } catch (const std::exception&) {
+  } catch (const std::exception& problem) {
+    (void)std::fprintf(stderr, "a tunnel was left behind: %s\n", problem.what());
   }
 }
 
