@@ -107,6 +107,7 @@ TEST_F(ForwardedPorts, ThatAnotherProgramHasAreNamed) {
                              .loopback_only = false,
                              .public_address = PublicAddress{TwoHomes::address(Home::child), port}};
   const int other = socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0);
+  ASSERT_GE(other, 0);
   sockaddr_in second{};
   second.sin_family = AF_INET;
   second.sin_port = htons(port + 1);

@@ -78,6 +78,7 @@ class Echo {
 std::optional<double> round_trip_us(const NetNamespace& from, const std::string& address, std::uint16_t to_port) {
   const InsideNamespace inside(from);
   const int datagrams = socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0);
+  if (datagrams < 0) return std::nullopt;
   const timeval wait{0, 200'000};
   setsockopt(datagrams, SOL_SOCKET, SO_RCVTIMEO, &wait, sizeof wait);
   sockaddr_in to{};
@@ -252,7 +253,7 @@ TEST_F(WireguardHub, CarriesTouchesBetweenPcsOfWhichNeitherCanBeDialled) {
   const auto file = link->pair.folder.write(
       "hub.conf", fmt::format("[Interface]\nPrivateKey = {}\nListenPort = {}\n{}{}", end.secret_key, port,
                               peer(Side::active, Side::passive), peer(Side::passive, Side::active)));
-  std::filesystem::permissions(file, std::filesystem::perms(0600));
+  std::filesystem::permissions(file, std::filesystem::perms::owner_read | std::filesystem::perms::owner_write);
   ends.push_back(std::make_unique<WireguardTunnel>(hub, file));
   run_inside(hub, {"nft", "insert rule ip router through iifname \"hub\" accept"});
   begin_at_hub(Side::passive, end.offer.public_key);
