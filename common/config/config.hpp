@@ -17,6 +17,8 @@ struct PeerConfig {
   std::string pairs;         // read it with parse_pairs(); see memberships()
   std::string pairs_folder;  // see pairs_folder()
   std::string addresses;     // read it with parse_addresses(); only if not loopback_only
+  std::string public_address;  // IPv4, of the router that forwards UDP ports to this PC; empty: none does
+  int public_port = 0;         // the first of two; 0 without public_address
 };
 
 struct ControlConfig {

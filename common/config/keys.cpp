@@ -20,6 +20,9 @@ constexpr Range heartbeat_timeout{150, 1000};
 // What drives a motor trusts a silent sender for at most as long as one command of the jacket lasts.
 constexpr Range heartbeat_timeout_of_drives{150, 250};
 
+// There must be a next one.
+constexpr Range forwarded_port{0, 65534};
+
 template <typename Parser>
 TextCheck parsed_by(Parser parse) {
   return [parse](std::string_view text) -> std::optional<std::string> {
@@ -67,7 +70,13 @@ Rows peer_rows(PeerConfig& c) {
        {},
        "Where the pairs of this PC are kept; empty: in the state folder of the service or user."},
       {"peer", "addresses", &c.addresses, "", parsed_by(parse_addresses),
-       "IPv4 addresses of the other side, with commas between them, where it is not found by itself."},
+       "IPv4 addresses of the other side, with commas between them, where it is not found by itself; \"ADDRESS:PORT\" "
+       "if it has a public_port."},
+      {"peer", "public_address", &c.public_address, "", parsed_by(parse_address),
+       "IPv4 address by which the internet knows this home, if its router forwards two UDP ports to this PC; empty: "
+       "none. docs/between-homes.md has the safer way."},
+      {"peer", "public_port", &c.public_port, "", forwarded_port,
+       "The first of the two forwarded ports, the next one being the second; 0 without public_address."},
   };
 }
 
@@ -90,10 +99,22 @@ std::string place_of(const std::vector<Key>& keys, std::initializer_list<std::st
 }
 
 std::vector<Fault> impossible_peers(const PeerConfig& c, const std::vector<Key>& keys) {
-  if (!c.loopback_only || c.addresses.empty()) return {};
-  return {{place_of(keys, {"peer.addresses", "peer.loopback_only"}),
-           "peer.addresses are of the network, which peer.loopback_only = true forbids: set it to false, or leave the "
-           "addresses out"}};
+  std::vector<Fault> faults;
+  if (c.loopback_only && !c.addresses.empty()) {
+    faults.push_back({place_of(keys, {"peer.addresses", "peer.loopback_only"}),
+                      "peer.addresses are of the network, which peer.loopback_only = true forbids: set it to false, or "
+                      "leave the addresses out"});
+  }
+  if (c.loopback_only && !c.public_address.empty()) {
+    faults.push_back({place_of(keys, {"peer.public_address", "peer.loopback_only"}),
+                      "peer.public_address is of the network, which peer.loopback_only = true forbids: set it to "
+                      "false, or leave the address out"});
+  }
+  if (c.public_address.empty() != (c.public_port == 0)) {
+    faults.push_back({place_of(keys, {"peer.public_address", "peer.public_port"}),
+                      "peer.public_address and peer.public_port belong together: give both, or neither"});
+  }
+  return faults;
 }
 
 }  // namespace

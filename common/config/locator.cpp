@@ -33,6 +33,17 @@ std::optional<std::string> after(std::string_view scheme, std::string_view text)
   return std::string(text.substr(scheme.size()));
 }
 
+bool is_ipv4(const std::string& text) {
+  in_addr parsed{};
+  return inet_pton(AF_INET, text.c_str(), &parsed) == 1;
+}
+
+bool is_port(const std::string& text) {
+  int port = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), port);
+  return error == std::errc() && end == text.data() + text.size() && port >= 1 && port <= 65'535;
+}
+
 }  // namespace
 
 Result<CameraSource> parse_camera_source(std::string_view text) {
@@ -97,12 +108,20 @@ Result<std::vector<std::string>> parse_pairs(std::string_view text) {
 Result<std::vector<std::string>> parse_addresses(std::string_view text) {
   auto addresses = split(text);
   for (const std::string& address : addresses) {
-    in_addr parsed{};
-    if (inet_pton(AF_INET, address.c_str(), &parsed) != 1) {
-      return Error{fmt::format("\"{}\" is not an IPv4 address; several have commas between them", address)};
+    const std::size_t colon = std::min(address.find(':'), address.size());
+    if (!is_ipv4(address.substr(0, colon)) || (colon < address.size() && !is_port(address.substr(colon + 1)))) {
+      return Error{fmt::format(
+          "\"{}\" is not an IPv4 address, nor one with a port behind a colon; several have commas between them",
+          address)};
     }
   }
   return addresses;
+}
+
+Result<std::string> parse_address(std::string_view text) {
+  std::string address(text);
+  if (address.empty() || is_ipv4(address)) return address;
+  return Error{fmt::format("\"{}\" is not an IPv4 address such as 198.51.100.7", text)};
 }
 
 Result<JacketLinkChoice> parse_jacket_link(std::string_view text) {

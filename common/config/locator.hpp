@@ -46,8 +46,11 @@ struct ScreenRegion {
 // Ids of pairs with commas between them; empty: none are named. "all" is one of them.
 [[nodiscard]] Result<std::vector<std::string>> parse_pairs(std::string_view text);
 
-// IPv4 addresses with commas between them; empty: none.
+// IPv4 addresses with commas between them, each with ":PORT" behind it if wanted; empty: none.
 [[nodiscard]] Result<std::vector<std::string>> parse_addresses(std::string_view text);
+
+// One IPv4 address, or empty.
+[[nodiscard]] Result<std::string> parse_address(std::string_view text);
 
 enum class JacketLinkKind { serial, simulated, recorded };
 

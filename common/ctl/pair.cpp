@@ -10,6 +10,7 @@
 #include "ctl/command.hpp"
 #include "ctl/pair_side.hpp"
 #include "ctl/pairing_steps.hpp"
+#include "pairing/wireguard.hpp"
 
 namespace telehug {
 
@@ -22,6 +23,10 @@ Examples:
   telehug pair accept CODE --name "Kim"       on the other PC; both print a phrase to compare
   telehug pair list
   telehug pair revoke 0123456789abcdef        on each PC
+
+Between two homes (one of the PCs can be dialled at a forwarded UDP port or an IPv6 address):
+  telehug pair invite --wireguard home.example.org:51820
+                                              with a WireGuard tunnel, for which both PCs then have a file
 
 Where the PCs can't reach each other directly, by chat or USB stick:
   telehug pair request > request.txt          on the parent's PC
@@ -66,6 +71,15 @@ class PairCommands {
       wish.side = *side;
       if (wish.folder.empty()) wish.folder = pairs_folder({}, *side);
       if (wish.name.empty()) wish.name = name_of_this_pc();
+      if (!wish.wireguard.empty()) {
+        const auto endpoint = parse_tunnel_endpoint(wish.wireguard);
+        if (!endpoint) {
+          (void)std::fprintf(stderr, "telehug: --wireguard: %s\n", endpoint.error().message.c_str());
+          result = ExitCode::usage;
+          return;
+        }
+        wish.wireguard = *endpoint;
+      }
       result = step(wish);
     });
     return command;
@@ -86,6 +100,11 @@ class PairCommands {
     command->add_option("--address", given_->wish.address,
                         "This PC's IPv4 address as the other reaches it (default: of the default route)");
     command->add_option("--port", given_->wish.port, "TCP port to wait at (default 0: any free one)");
+  }
+
+  void wireguard(CLI::App* command) {
+    command->add_option("--wireguard", given_->wish.wireguard,
+                        "Make a tunnel in which the other PC dials this one at HOST[:PORT] (UDP, default 51820)");
   }
 
  private:
@@ -118,6 +137,8 @@ void add_pair(CLI::App& app, ExitCode& result) {
   commands.word(renew, "pair", "The other person's name or the pair's id, as list shows them");
   for (CLI::App* command : {invite, accept, request, grant})
     commands.name(command);
+  for (CLI::App* command : {invite, accept, request, grant})
+    commands.wireguard(command);
   for (CLI::App* command : {invite, accept, list, grant, finish, renew})
     commands.json(command);
   commands.file(request, "Where to write the request (default: stdout)");

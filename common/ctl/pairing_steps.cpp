@@ -12,7 +12,9 @@
 #include "ctl/own_address.hpp"
 #include "ctl/plain_text.hpp"
 #include "files/private_file.hpp"
+#include "network/ways_in.hpp"
 #include "pairing/pairing.hpp"
+#include "pairing/wireguard.hpp"
 #include "pairing_link/pairing_exchange.hpp"
 #include "pairing_link/qr_code.hpp"
 #include "service/control_socket.hpp"
@@ -30,11 +32,37 @@ ExitCode fail(ExitCode code, const std::string& sentence) {
 }
 
 nlohmann::json as_json(const Pair& pair) {
-  return {{"id", pair.id},
-          {"name", pair.name},
-          {"side", side_name(pair.side)},
-          {"phrase", pair.phrase},
-          {"expires", fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(pair.expires.time_since_epoch().count()))}};
+  nlohmann::json json{
+      {"id", pair.id},
+      {"name", pair.name},
+      {"side", side_name(pair.side)},
+      {"phrase", pair.phrase},
+      {"expires", fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(pair.expires.time_since_epoch().count()))}};
+  if (const auto tunnel = tunnel_of(pair)) {
+    json["tunnel"] = {{"file", tunnel->file.string()},
+                      {"interface", tunnel->interface},
+                      {"address", tunnel->own_address},
+                      {"peer_address", tunnel->peer_address}};
+  }
+  return json;
+}
+
+void print_tunnel(std::FILE* to, const PairTunnel& tunnel) {
+  fmt::print(to,
+             "\nTheir WireGuard tunnel is begun on each PC by (`apt install wireguard-tools` before):\n"
+             "  sudo install -m 600 {0} /etc/wireguard/{1}.conf\n"
+             "  sudo systemctl enable --now wg-quick@{1}\n"
+             "telehug then finds the other PC in it by itself, at {2}.\n",
+             tunnel.file.string(), tunnel.interface, tunnel.peer_address);
+  if (tunnel.listen_port.empty()) return;
+  fmt::print(to, "The other PC dials this one. {}\n", advice(ways_in(lasting_addresses()), tunnel.listen_port));
+}
+
+void print_end_of_tunnel(const PairTunnel& tunnel) {
+  fmt::print(
+      "Its tunnel, if it was begun, is ended by:\n"
+      "  sudo systemctl disable --now wg-quick@{0}\n  sudo shred -u /etc/wireguard/{0}.conf\n",
+      tunnel.interface);
 }
 
 void print_pair(std::FILE* to, const Pair& pair, bool json) {
@@ -44,6 +72,20 @@ void print_pair(std::FILE* to, const Pair& pair, bool json) {
       "Paired with {} (id {}).\nPhrase: {}\nRead the phrase to each other: if both PCs show the same words, nobody "
       "sits in between; if not, take it back with `telehug pair revoke {}`.\n",
       plain_text(pair.name), pair.id, pair.phrase, pair.id);
+  if (const auto tunnel = tunnel_of(pair)) return print_tunnel(to, *tunnel);
+  fmt::print(to, "If the other PC is in another home, the two need a tunnel: pair them again with --wireguard. {}\n",
+             advice(ways_in(lasting_addresses()), usual_tunnel_port));
+}
+
+// A pair that can't be read can still be revoked.
+std::optional<PairTunnel> tunnel_of_pair(const PairStore& store, const std::string& id) {
+  try {
+    for (const Pair& pair : store.list())
+      if (pair.id == id) return tunnel_of(pair);
+    return std::nullopt;
+  } catch (const std::runtime_error&) {
+    return std::nullopt;
+  }
 }
 
 void print_renewed(std::FILE* to, const Pair& pair, bool is_news, bool json) {
@@ -77,7 +119,7 @@ class Pairing {
 
   Offer offer() {
     return {.side = wish_.side,
-            .make_request = [this] { return store_.request(wish_.name); },
+            .make_request = [this] { return store_.request(wish_.name, wish_.wireguard); },
             .accept = [this](const std::string& grant) -> Status {
               auto pair = store_.accept(grant, wall_time());
               if (!pair) return pair.error();
@@ -85,7 +127,7 @@ class Pairing {
               return Done{};
             },
             .grant_for = [this](const std::string& request) -> Result<std::string> {
-              auto granted = store_.grant(request, wish_.name, wall_time());
+              auto granted = store_.grant(request, wish_.name, wall_time(), wish_.wireguard);
               if (!granted) return granted.error();
               pair_ = granted->pair;
               return granted->grant;
@@ -201,6 +243,10 @@ ExitCode pair_list(const PairingWish& wish) {
   for (const auto& pair : pairs) {
     fmt::print("{}  {}  until {}  {}\n", text_of(pair["id"]), text_of(pair["name"]), text_of(pair["expires"]),
                text_of(pair["phrase"]));
+    if (pair.contains("tunnel"))
+      fmt::print("  tunnel {}: this PC is {}, the other {}; {}\n", text_of(pair["tunnel"]["interface"]),
+                 text_of(pair["tunnel"]["address"]), text_of(pair["tunnel"]["peer_address"]),
+                 text_of(pair["tunnel"]["file"]));
     for (const auto& fault : pair["faults"])
       fmt::print("  {}: {}\n  -> {}\n", text_of(fault["file"]), text_of(fault["what"]), text_of(fault["do"]));
   }
@@ -209,16 +255,18 @@ ExitCode pair_list(const PairingWish& wish) {
 
 ExitCode pair_revoke(const PairingWish& wish) {
   PairStore store(wish.folder, wish.side);
+  const auto tunnel = tunnel_of_pair(store, wish.word);
   if (!store.revoke(wish.word))
     return fail(ExitCode::refused, fmt::format("no pair {}: `telehug pair list` shows the pairs", wish.word));
   fmt::print("revoked {}\n", wish.word);
+  if (tunnel) print_end_of_tunnel(*tunnel);
   return ExitCode::ok;
 }
 
 ExitCode pair_request(const PairingWish& wish) {
   if (wish.side != Side::active) return fail(ExitCode::usage, "a request is made on the parent's PC (--side active)");
   PairStore store(wish.folder, wish.side);
-  const auto request = store.request(wish.name);
+  const auto request = store.request(wish.name, wish.wireguard);
   if (!request) return fail(ExitCode::refused, request.error().message);
   return hand_over(*request, wish.file);
 }
@@ -228,7 +276,7 @@ ExitCode pair_grant(const PairingWish& wish) {
   const auto request = read_text(wish.file);
   if (!request) return fail(ExitCode::refused, request.error().message);
   PairStore store(wish.folder, wish.side);
-  const auto granted = store.grant(*request, wish.name, wall_time());
+  const auto granted = store.grant(*request, wish.name, wall_time(), wish.wireguard);
   if (!granted) return fail(ExitCode::refused, granted.error().message);
   fmt::print("{}\n", granted->grant);
   // Stdout is the text for the other PC and nothing else.

@@ -18,6 +18,7 @@ struct PairingWish {
   std::string name;     // how the other person sees this one
   std::string address;  // empty: the one of the default route
   std::uint16_t port = 0;
+  std::string wireguard;       // where the other PC can dial this one, as given; empty: it can't
   std::filesystem::path file;  // empty: stdin or stdout
   std::string word;            // the code of accept, the id of revoke, the name or id of renew
   bool json = false;

@@ -10,6 +10,7 @@
 #include "config/locator.hpp"
 #include "config/places.hpp"
 #include "daemon/status_parts.hpp"
+#include "pairing/wireguard.hpp"
 
 namespace telehug {
 namespace {
@@ -80,8 +81,16 @@ Result<Memberships> memberships(const PeerConfig& config, Side side, WallTime no
       member.dds.partition = pair.partition;
       member.dds.loopback_only = config.loopback_only;
       if (addresses) member.dds.peers = *addresses;
+      if (const auto tunnel = tunnel_of(pair); tunnel && !config.loopback_only)
+        member.dds.peers.push_back(tunnel->peer_address);
+      if (!config.public_address.empty())
+        member.dds.public_address = {config.public_address, static_cast<std::uint16_t>(config.public_port)};
     }
     if (found.members.empty()) return Error{fmt::format("{}", fmt::join(found.left_out, "\n"))};
+    if (found.members.size() > 1 && !config.public_address.empty()) {
+      return Error{fmt::format(
+          "the two UDP ports from peer.public_port on serve one pair: choose by peer.pairs which: {}", ids(*chosen))};
+    }
     if (found.members.size() > max_memberships) {
       return Error{fmt::format("one daemon serves at most {} pairs: choose by peer.pairs which of these it serves: {}",
                                max_memberships, ids(*chosen))};

@@ -3,9 +3,14 @@
 
 #include <fastrtps/xmlparser/XMLProfileManager.h>
 #include <fmt/format.h>
+#include <netinet/in.h>
+#include <sys/socket.h>
+#include <unistd.h>
 #include <fastdds/dds/domain/DomainParticipantFactory.hpp>
 
+#include <cerrno>
 #include <stdexcept>
+#include <system_error>
 
 #include "dds/participant_impl.hpp"
 #include "dds/qos.hpp"
@@ -21,6 +26,20 @@ void deliver_through_the_transport_only() {
   eprosima::fastrtps::LibrarySettingsAttributes library;
   library.intraprocess_delivery = eprosima::fastrtps::INTRAPROCESS_OFF;
   eprosima::fastrtps::xmlparser::XMLProfileManager::library_settings(library);
+}
+
+// Fast DDS would silently take another port, to which no router forwards anything.
+void require_free(std::uint16_t port) {
+  const int probe = socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0);
+  sockaddr_in any{};
+  any.sin_family = AF_INET;
+  any.sin_port = htons(port);
+  const bool free = probe >= 0 && bind(probe, reinterpret_cast<const sockaddr*>(&any), sizeof any) == 0;
+  const int problem = errno;
+  if (probe >= 0) close(probe);
+  if (free) return;
+  throw DdsError(fmt::format("UDP port {}, which the router forwards (peer.public_port), can't be used: {}", port,
+                             std::generic_category().message(problem)));
 }
 
 template <typename Qos>
@@ -42,6 +61,10 @@ DdsParticipant::Impl::Impl(const DdsSettings& settings) : side(settings.side) {
   }
   dds::DomainParticipantQos qos = participant_qos(settings);
   qos.wire_protocol().participant_id = number.value();
+  if (settings.public_address) {
+    require_free(settings.public_address->port);
+    require_free(static_cast<std::uint16_t>(settings.public_address->port + 1));
+  }
   deliver_through_the_transport_only();
   participant = dds::DomainParticipantFactory::get_instance()->create_participant(settings.domain_id, qos, &signs,
                                                                                   dds::StatusMask::none());

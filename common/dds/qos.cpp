@@ -6,6 +6,8 @@
 #include <fastrtps/utils/IPLocator.h>
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <charconv>
 #include <stdexcept>
 
 #include "dds/participant_number.hpp"
@@ -24,16 +26,51 @@ constexpr int felt_history = 64;
 // eleventh restart. So many that a peer can't shut others out by inventing a few thousand sessions.
 constexpr int max_sessions = 100'000;
 
-rtps::Locator_t udp_locator(const std::string& address) {
+// port 0: those that the domain id gives.
+rtps::Locator_t udp_locator(const std::string& address, std::uint32_t port = 0) {
   in_addr parsed{};
-  if (inet_pton(AF_INET, address.c_str(), &parsed) != 1) {
-    throw std::invalid_argument(fmt::format("the peer \"{}\" is not an IPv4 address such as 192.0.2.7", address));
+  if (inet_pton(AF_INET, address.c_str(), &parsed) != 1 || port > 65'535) {
+    throw std::invalid_argument(fmt::format("\"{}\" is not an IPv4 address such as 192.0.2.7", address));
   }
   rtps::Locator_t locator;
   locator.kind = LOCATOR_KIND_UDPv4;
-  locator.port = 0;  // the ports that the domain id gives
+  locator.port = port;
   rtps::IPLocator::setIPv4(locator, address);
   return locator;
+}
+
+// "192.0.2.7" or "192.0.2.7:7600"
+rtps::Locator_t peer_locator(const std::string& peer) {
+  const std::size_t colon = std::min(peer.find(':'), peer.size());
+  std::uint32_t port = 0;
+  if (colon < peer.size()) {
+    const char* const end = peer.data() + peer.size();
+    const auto [next, error] = std::from_chars(peer.data() + colon + 1, end, port);
+    if (error != std::errc() || next != end || port == 0) {
+      throw std::invalid_argument(fmt::format("the peer \"{}\" has no port behind its colon", peer));
+    }
+  }
+  return udp_locator(peer.substr(0, colon), port);
+}
+
+// A router translates the addresses of packets, not those that DDS tells within them. So that the other side learns
+// one that leads here, ports are fixed, and the router's address is told beside this PC's own.
+void announce(dds::DomainParticipantQos& qos, const PublicAddress& known_as, std::uint32_t domain_id) {
+  auto& wire = qos.wire_protocol();
+  const auto at_router = [&](std::uint32_t port) {
+    eprosima::fastdds::rtps::LocatorWithMask locator;
+    static_cast<rtps::Locator_t&>(locator) = udp_locator(known_as.address, port);
+    return locator;
+  };
+  const std::uint32_t discovery = known_as.port;
+  const std::uint32_t data = discovery + 1;
+  const std::string every_interface = "0.0.0.0";
+  wire.builtin.metatrafficUnicastLocatorList.push_back(udp_locator(every_interface, discovery));
+  wire.default_unicast_locator_list.push_back(udp_locator(every_interface, data));
+  wire.builtin.metatraffic_external_unicast_locators[1][0].push_back(at_router(discovery));
+  wire.default_external_unicast_locators[1][0].push_back(at_router(data));
+  // Said here since the library leaves it out once unicast is said; the own network is still to be heard.
+  wire.builtin.metatrafficMulticastLocatorList.push_back(udp_locator("239.255.0.1", 7400 + 250 * domain_id));
 }
 
 // DDS Security 1.1, 9.3 to 9.5: who is who by certificates, who may what by signed permissions, AES-GCM.
@@ -155,6 +192,9 @@ dds::DomainParticipantQos participant_qos(const DdsSettings& settings) {
   if (settings.loopback_only && !settings.peers.empty()) {
     throw std::invalid_argument("peers are listed, but only loopback is allowed: remove one of the two settings");
   }
+  if (settings.loopback_only && settings.public_address) {
+    throw std::invalid_argument("a public address is given, but only loopback is allowed: remove one of the two");
+  }
   dds::DomainParticipantQos qos;
   // Announcements are readable on the network even with DDS Security, each second. Fast DDS would put the names of this
   // PC and its user there.
@@ -172,7 +212,8 @@ dds::DomainParticipantQos participant_qos(const DdsSettings& settings) {
     builtin.initialPeersList.push_back(udp_locator(loopback_address));
   }
   for (const std::string& peer : settings.peers)
-    builtin.initialPeersList.push_back(udp_locator(peer));
+    builtin.initialPeersList.push_back(peer_locator(peer));
+  if (settings.public_address) announce(qos, *settings.public_address, settings.domain_id);
   qos.transport().user_transports.push_back(udp);
 
   // A long lease: a side that drops the other after a short one-way loss may never find it again once DDS security is

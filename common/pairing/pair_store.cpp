@@ -11,6 +11,7 @@
 #include "pairing/pairing.hpp"
 #include "pairing/phrase.hpp"
 #include "pairing/secret_files.hpp"
+#include "pairing/wireguard.hpp"
 
 namespace telehug {
 namespace {
@@ -35,9 +36,22 @@ Error bad_name(const std::string& whose) {
   return {fmt::format("{} has 1 to {} bytes and no control characters: choose another one", whose, max_name)};
 }
 
-// What both PCs know and whoever sat between them would have had to replace.
-std::string phrase(X509* identity_ca, X509* permissions_ca, EVP_PKEY* parent, EVP_PKEY* wearer) {
-  return phrase_of(der_of(identity_ca) + der_of(permissions_ca) + public_der_of(parent) + public_der_of(wearer));
+// What both PCs know and whoever sat between them would have had to replace. `tunnel`: the public keys of its ends.
+std::string phrase(X509* identity_ca, X509* permissions_ca, EVP_PKEY* parent, EVP_PKEY* wearer,
+                   const std::string& tunnel) {
+  return phrase_of(der_of(identity_ca) + der_of(permissions_ca) + public_der_of(parent) + public_der_of(wearer) +
+                   tunnel);
+}
+
+std::string agreed_tunnel(const TunnelOffer& parent, const TunnelOffer& wearer) {
+  return parent.public_key + wearer.public_key;
+}
+
+void keep_tunnel(const fs::path& folder, Side side, const TunnelEnd& own, const TunnelOffer& other) {
+  make_secret_folder(folder);
+  std::string conf = wireguard_conf(folder.filename().string(), side, own, other);
+  write_secret(wireguard_file_in(folder), conf);
+  OPENSSL_cleanse(conf.data(), conf.size());
 }
 
 void keep_key(const fs::path& file, EVP_PKEY* key) {
@@ -78,7 +92,7 @@ PairStore::PairStore(fs::path folder, Side side) : folder_(std::move(folder)), s
     throw std::runtime_error(fmt::format("{} is no folder: pairs can't be kept there", folder_.string()));
 }
 
-Result<std::string> PairStore::request(const std::string& name) {
+Result<std::string> PairStore::request(const std::string& name, const std::string& reachable_at) {
   if (side_ != Side::active)
     return Error{"this is the wearer's PC: the request is made on the parent's (`telehug pair request`)"};
   if (!is_name(name)) return bad_name("the name");
@@ -86,13 +100,20 @@ Result<std::string> PairStore::request(const std::string& name) {
     const KeyHandle key = make_key();
     make_secret_folder(folder_);
     keep_key(folder_ / "pending.key", key.get());
-    return armour("request", {{"version", 1}, {"name", name}, {"request", signing_request(key.get(), "request")}});
+    // Offered to every wearer, whose PC may be the one that can be dialled.
+    const TunnelEnd tunnel = make_tunnel_end(reachable_at);
+    write_secret(folder_ / "pending.wireguard", to_text(tunnel));
+    return armour("request", {{"version", 1},
+                              {"name", name},
+                              {"request", signing_request(key.get(), "request")},
+                              {"wireguard", to_json(tunnel.offer)}});
   } catch (const std::exception& problem) {
     return Error{problem.what()};
   }
 }
 
-Result<PairStore::Granted> PairStore::grant(const std::string& request, const std::string& name, WallTime now) {
+Result<PairStore::Granted> PairStore::grant(const std::string& request, const std::string& name, WallTime now,
+                                            const std::string& reachable_at) {
   if (side_ != Side::passive)
     return Error{"this is the parent's PC: what is felt is granted on the wearer's (`telehug pair grant`)"};
   if (!is_name(name)) return bad_name("the wearer's name");
@@ -102,6 +123,14 @@ Result<PairStore::Granted> PairStore::grant(const std::string& request, const st
   if (!is_name(parents_name)) return bad_name("the name in the request");
   const auto parents_key = read_signing_request(text_in(*asked, "request"));
   if (!parents_key) return Error{"the request is refused: " + parents_key.error().message};
+  const auto parents_offer = tunnel_offer_in(*asked);
+  if (!parents_offer) return Error{"the request is refused: " + parents_offer.error().message};
+  const bool has_offer = parents_offer->has_value();
+  if (!reachable_at.empty() && !has_offer)
+    return Error{
+        "the request offers no WireGuard tunnel: the parent's telehug is older; update it, or leave "
+        "--wireguard out"};
+  const bool tunnelled = has_offer && !(reachable_at.empty() && (*parents_offer)->endpoint.empty());
   if (list().size() >= max_pairs)
     return Error{fmt::format("this PC has {} pairs already: revoke one (`telehug pair list`)", max_pairs)};
   try {
@@ -123,6 +152,9 @@ Result<PairStore::Granted> PairStore::grant(const std::string& request, const st
                          {"permissions_ca", pem_of(permitting.certificate.get())},
                          {"governance", sign(governance(), permitting.certificate.get(), permitting.key.get())}};
 
+    std::optional<TunnelEnd> tunnel;
+    if (tunnelled) tunnel = make_tunnel_end(reachable_at);
+
     Json own_texts = common;
     own_texts["certificate"] = own.certificate;
     own_texts["permissions"] = own.permissions;
@@ -131,9 +163,11 @@ Result<PairStore::Granted> PairStore::grant(const std::string& request, const st
               side_,
               partition,
               validity.until,
-              phrase(identity.certificate.get(), permitting.certificate.get(), parents_key->get(), own_key.get()),
+              phrase(identity.certificate.get(), permitting.certificate.get(), parents_key->get(), own_key.get(),
+                     tunnel ? agreed_tunnel(**parents_offer, tunnel->offer) : ""),
               files_in(folder_ / id)};
     keep_authorities(folder_ / id, identity, permitting, parents.certificate);
+    if (tunnel) keep_tunnel(folder_ / id, side_, *tunnel, **parents_offer);
     keep(pair, own_texts, pem_of(own_key.get()));
 
     Json theirs = common;
@@ -141,6 +175,7 @@ Result<PairStore::Granted> PairStore::grant(const std::string& request, const st
     theirs["certificate"] = parents.certificate;
     theirs["permissions"] = parents.permissions;
     theirs["wearers_certificate"] = own.certificate;
+    if (tunnel) theirs["wireguard"] = to_json(tunnel->offer);
     return Granted{std::move(pair), armour("grant", theirs)};
   } catch (const std::exception& problem) {
     return Error{problem.what()};
@@ -156,6 +191,8 @@ Result<Pair> PairStore::accept(const std::string& grant, WallTime now) {
   const std::string name = text_in(*granted, "name");
   if (!is_id(id)) return Error{"the grant is refused: it names no pair"};
   if (!is_name(name)) return bad_name("the name in the grant");
+  const auto wearers_offer = tunnel_offer_in(*granted);
+  if (!wearers_offer) return Error{"the grant is refused: " + wearers_offer.error().message};
   std::error_code none;
   if (fs::exists(folder_ / id, none)) return Error{fmt::format("the pair {} is known already", id)};
   try {
@@ -172,12 +209,17 @@ Result<Pair> PairStore::accept(const std::string& grant, WallTime now) {
     const auto certificate = read_certificate(text_in(*granted, "certificate"));
     if (!certificate || !belongs_to(certificate.get(), key.get()))
       return Error{"the grant is refused: it answers another request than the last one of this PC"};
+    const auto tunnel =
+        *wearers_offer ? read_tunnel_end(read_secret(folder_ / "pending.wireguard")) : std::optional<TunnelEnd>();
+    if (*wearers_offer && !tunnel)
+      return Error{"the grant is refused: it tells of a tunnel that this PC did not offer; make a new request"};
     Pair pair{id,
               name,
               side_,
               partition_of(id),
               validity_of(certificate.get()).until,
-              phrase(identity_ca.get(), permissions_ca.get(), key.get(), X509_get0_pubkey(wearers.get())),
+              phrase(identity_ca.get(), permissions_ca.get(), key.get(), X509_get0_pubkey(wearers.get()),
+                     tunnel ? agreed_tunnel(tunnel->offer, **wearers_offer) : ""),
               files_in(folder_ / id)};
     // The one certificate of each authority that the phrase is made from, and no other that stood behind it in the
     // text: Fast DDS would trust every one of a file.
@@ -185,6 +227,7 @@ Result<Pair> PairStore::accept(const std::string& grant, WallTime now) {
     texts["identity_ca"] = pem_of(identity_ca.get());
     texts["permissions_ca"] = pem_of(permissions_ca.get());
     texts["certificate"] = pem_of(certificate.get());
+    if (tunnel) keep_tunnel(folder_ / id, side_, *tunnel, **wearers_offer);
     keep(pair, texts, key_pem);
     OPENSSL_cleanse(key_pem.data(), key_pem.size());
     // What the library will look at is looked at now, when it can still be said.
@@ -193,6 +236,7 @@ Result<Pair> PairStore::accept(const std::string& grant, WallTime now) {
       return Error{"the grant is refused: " + faults.front().what};
     }
     wipe(folder_ / "pending.key");
+    wipe(folder_ / "pending.wireguard");
     return pair;
   } catch (const std::exception& problem) {
     return Error{problem.what()};
@@ -221,6 +265,7 @@ bool PairStore::revoke(const std::string& id) {
   wipe(files_in(folder_ / id).private_key);
   wipe(renewal_files_in(folder_ / id).identity_key);
   wipe(renewal_files_in(folder_ / id).permissions_key);
+  wipe(wireguard_file_in(folder_ / id));
   fs::remove_all(folder_ / id);
   return true;
 }

@@ -70,7 +70,9 @@ class PairStore {
   // --- parent's PC (active side) ---
 
   // Makes a key and asks for a certificate of it. `name`: how the wearer sees this person, 1 to 64 characters.
-  [[nodiscard]] Result<std::string> request(const std::string& name);
+  // `reachable_at`: where the other PC can dial this one, if there is to be a WireGuard tunnel to here (see
+  // wireguard.hpp); the same below. One side that says so is enough for both to have it.
+  [[nodiscard]] Result<std::string> request(const std::string& name, const std::string& reachable_at = "");
   // Takes what the wearer's PC answered to the last request of this PC.
   [[nodiscard]] Result<Pair> accept(const std::string& grant, WallTime now);
 
@@ -81,7 +83,8 @@ class PairStore {
     std::string grant;  // to be sent back
   };
   // `name`: how the parent's PC calls this wearer.
-  [[nodiscard]] Result<Granted> grant(const std::string& request, const std::string& name, WallTime now);
+  [[nodiscard]] Result<Granted> grant(const std::string& request, const std::string& name, WallTime now,
+                                      const std::string& reachable_at = "");
 
   // Makes new certificates and permissions for both sides, keeps the wearer's own at once and the parent's to be sent.
   // A crash on the way leaves a pair that works and can be renewed again.

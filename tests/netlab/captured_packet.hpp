@@ -19,10 +19,13 @@ struct CapturedPacket {
 
 struct UdpContent {
   std::uint16_t port = 0;  // where it goes
+  std::uint16_t from_port = 0;
   Bytes payload;
 };
 
-// Nothing if the Ethernet frame holds no whole UDP datagram over IPv4.
+// Nothing if the Ethernet frame holds no whole UDP datagram.
 [[nodiscard]] std::optional<UdpContent> udp_content(const Bytes& frame);
+// ARP, and what does the same for IPv6.
+[[nodiscard]] bool seeks_neighbours(const Bytes& frame);
 
 }  // namespace telehug

@@ -9,11 +9,10 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <stdexcept>
 #include <system_error>
 #include <utility>
 
-#include "doubles/child_program.hpp"
+#include "netlab/run_inside.hpp"
 
 namespace telehug {
 namespace {
@@ -25,20 +24,12 @@ constexpr int most_frames_at_once = 256;
 constexpr std::uint8_t ipv4_multicast = 0x01;
 
 void ip(const NetNamespace& network, std::vector<std::string> words) {
-  const InsideNamespace inside(network);
-  std::string command = "ip";
-  for (const std::string& word : words)
-    command += " " + word;
   words.insert(words.begin(), "ip");
-  if (ChildProgram(words).wait_for_end() != 0) throw std::runtime_error("failed: " + command);
+  run_inside(network, words);
 }
 
 Home other(Home home) {
   return home == Home::parent ? Home::child : Home::parent;
-}
-
-std::string path_of(const NetNamespace& network) {
-  return "/proc/" + std::to_string(getpid()) + "/fd/" + std::to_string(network.descriptor());
 }
 
 }  // namespace
@@ -81,6 +72,18 @@ void TwoHomes::put_in_plug(Home home) {
 void TwoHomes::stop_multicast() {
   const std::lock_guard lock(mutex_);
   multicast_passes_ = false;
+}
+
+void TwoHomes::let_only_pass(std::uint16_t udp_port) {
+  const std::lock_guard lock(mutex_);
+  only_port_ = udp_port;
+}
+
+bool TwoHomes::passes(const Bytes& frame) const {
+  if (!multicast_passes_ && frame[0] == ipv4_multicast) return false;
+  if (!only_port_ || seeks_neighbours(frame)) return true;
+  const auto datagram = udp_content(frame);
+  return datagram && (datagram->port == *only_port_ || datagram->from_port == *only_port_);
 }
 
 void TwoHomes::set(Home from, const WayFaults& faults) {
@@ -156,7 +159,7 @@ void TwoHomes::take_in(Home from) {
     Bytes frame = side(from).port->receive();
     if (frame.empty()) return;
     const std::lock_guard lock(mutex_);
-    if (!multicast_passes_ && frame[0] == ipv4_multicast) continue;
+    if (!passes(frame)) continue;
     for (const Timestamp arrival : side(from).way.arrivals(SteadyClock{}.now())) {
       if (flying_.size() < most_flying) flying_.push({arrival, ++count_, from, frame});
     }

@@ -42,6 +42,8 @@ class TwoHomes {
   void put_in_plug(Home home);
   // As in a VPN: what goes to more than one receiver does not pass, but for the search for neighbours.
   void stop_multicast();
+  // From now on nothing passes but UDP from or to that port, and the search for neighbours.
+  void let_only_pass(std::uint16_t udp_port);
 
   // For the packets that come from that home, from now on.
   void set(Home from, const WayFaults& faults);
@@ -82,6 +84,7 @@ class TwoHomes {
 
   [[nodiscard]] Side& side(Home home) { return *sides_[static_cast<std::size_t>(home)]; }
   [[nodiscard]] const Side& side(Home home) const { return *sides_[static_cast<std::size_t>(home)]; }
+  [[nodiscard]] bool passes(const Bytes& frame) const;
   void carry(const std::stop_token& stop);
   void take_in(Home from);
   void let_arrive(Timestamp now);
@@ -91,6 +94,7 @@ class TwoHomes {
   std::array<std::optional<Side>, 2> sides_;
   mutable std::mutex mutex_;  // for the ways, the recordings and what flies
   bool multicast_passes_ = true;
+  std::optional<std::uint16_t> only_port_;
   std::priority_queue<Flying> flying_;
   std::uint64_t count_ = 0;
   std::jthread carrier_;

@@ -11,6 +11,10 @@ telehug_test(test_suspend_detector KIND unit SUBJECT link
   SOURCES unit/network/suspend_detector_test.cpp
   DEPS telehug_network)
 
+telehug_test(test_ways_in KIND unit SUBJECT link
+  SOURCES unit/network/ways_in_test.cpp
+  DEPS telehug_network)
+
 telehug_test(test_publish KIND unit SUBJECT link
   SOURCES unit/publish/touch_event_builder_test.cpp doubles/allocation_counter.cpp
   DEPS active_publish)
@@ -29,7 +33,7 @@ telehug_test(test_peer_link KIND unit SUBJECT link
   DEPS telehug_peer_link)
 
 telehug_test(test_pairing KIND unit SUBJECT link
-  SOURCES unit/pairing/pair_store_test.cpp unit/pairing/renewal_test.cpp
+  SOURCES unit/pairing/pair_store_test.cpp unit/pairing/renewal_test.cpp unit/pairing/wireguard_test.cpp
   DEPS telehug_pairing nlohmann_json::nlohmann_json OpenSSL::Crypto)
 
 telehug_test(test_pairing_link KIND unit SUBJECT link

@@ -54,7 +54,8 @@ class RunningPair {
 
   // Pairs the two sides; with it they speak through DDS Security. Of the PC that is `side`.
   [[nodiscard]] PairStore pairs(Side side) const;
-  void pair_up() const;
+  // `wearer_at`: as in PairStore::grant().
+  void pair_up(const std::string& wearer_at = "") const;
 
   void calibrate(const std::string& source) const;
   void start_jacket();

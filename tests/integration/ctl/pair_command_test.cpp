@@ -132,6 +132,39 @@ TEST_F(PairCommand, SaysWhyAPairCantBeRenewed) {
   expect_refused("renew Mum" + on("passive"), "say which by its id: ");
 }
 
+TEST_F(PairCommand, MakesATunnelsFilesAndSaysWhatToRun) {
+  ASSERT_EQ(run("request --name Mum" + on("active"), "/dev/null", "request.txt"), 0) << content("errors.txt");
+  ASSERT_EQ(run("grant --wireguard home.example.org" + on("passive"), folder_ / "request.txt", "grant.txt"), 0)
+      << content("errors.txt");
+  EXPECT_NE(content("errors.txt").find("The other PC dials this one"), std::string::npos) << content("errors.txt");
+  ASSERT_EQ(run("finish" + on("active"), folder_ / "grant.txt"), 0) << content("errors.txt");
+  const Json pair = pairs("active").at(0);
+  const std::string interface = pair.at("tunnel").at("interface");
+  EXPECT_EQ(pair["tunnel"]["peer_address"], pairs("passive").at(0)["tunnel"]["address"]);
+  EXPECT_TRUE(std::filesystem::exists(pair["tunnel"]["file"].get<std::string>()));
+  EXPECT_EQ(run("list" + on("active")), 0);
+  EXPECT_NE(content("out.txt").find("tunnel " + interface), std::string::npos) << content("out.txt");
+  const std::string id = pair["id"];
+  ASSERT_EQ(run("revoke " + id + on("active")), 0);
+  EXPECT_NE(content("out.txt").find("systemctl disable --now wg-quick@" + interface), std::string::npos);
+  EXPECT_FALSE(std::filesystem::exists(pair["tunnel"]["file"].get<std::string>()));
+}
+
+TEST_F(PairCommand, MakesATunnelOverAConnectionThatEitherPcAsksFor) {
+  const ChildProgram inviter = invite();
+  const std::string code = Json::parse(inviter.read_line())["code"];
+  ASSERT_EQ(run("accept " + code + " --wireguard 198.51.100.7:4711 --json" + on("active")), 0) << content("errors.txt");
+  const Json parents = Json::parse(content("out.txt"))["pair"];
+  const Json wearers = Json::parse(inviter.read_line())["pair"];
+  EXPECT_EQ(parents["tunnel"]["address"], wearers["tunnel"]["peer_address"]);
+  EXPECT_EQ(parents["phrase"], wearers["phrase"]);
+}
+
+TEST_F(PairCommand, SaysThatNobodyCanDialThere) {
+  EXPECT_EQ(run("request --wireguard 'home org'" + on("active")), 2);
+  EXPECT_NE(content("errors.txt").find("not where a PC can be dialled"), std::string::npos) << content("errors.txt");
+}
+
 TEST_F(PairCommand, KeepsNothingWhenBothPcsAreAWearers) {
   const ChildProgram inviter = invite();
   const std::string code = Json::parse(inviter.read_line())["code"];

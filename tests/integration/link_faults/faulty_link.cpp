@@ -11,18 +11,23 @@ constexpr Duration longest_return = 20s;
 
 }  // namespace
 
-FaultyLink::FaultyLink() : homes(seed) {
+FaultyLink::FaultyLink(const std::string& wearer_at) : homes(seed) {
   pair.loopback_only = false;
-  pair.pair_up();
+  pair.pair_up(wearer_at);
+}
+
+const NetNamespace& FaultyLink::network(Home home) const {
+  const auto& hidden = hidden_[static_cast<std::size_t>(home)];
+  return hidden ? hidden->network() : homes.network(home);
 }
 
 void FaultyLink::start_active() {
-  const InsideNamespace inside(homes.network(Home::parent));
+  const InsideNamespace inside(network(Home::parent));
   pair.start_active();
 }
 
 void FaultyLink::start_passive() {
-  const InsideNamespace inside(homes.network(Home::child));
+  const InsideNamespace inside(network(Home::child));
   pair.start_passive();
 }
 

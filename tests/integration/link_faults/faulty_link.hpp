@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "integration/app/running_pair.hpp"
 #include "integration/link_faults/fault_table.hpp"
+#include "netlab/hidden_pc.hpp"
 #include "netlab/two_homes.hpp"
 
 namespace telehug {
@@ -15,10 +18,16 @@ namespace telehug {
 // everything works a motor runs.
 class FaultyLink {
  public:
-  FaultyLink();
+  // `wearer_at`: where the parent's PC dials the wearer's, if they are to have a WireGuard tunnel.
+  explicit FaultyLink(const std::string& wearer_at = "");
 
   TwoHomes homes;
   RunningPair pair;
+
+  // Puts that home's PC behind a router, before anything is started.
+  HiddenPc& hide(Home home) { return hidden_[static_cast<std::size_t>(home)].emplace(homes, home); }
+  // Where that home's PC is.
+  [[nodiscard]] const NetNamespace& network(Home home) const;
 
   void start_active();
   void start_passive();
@@ -43,6 +52,7 @@ class FaultyLink {
   [[nodiscard]] FeltTimes felt_times() const { return FeltTimes(pair.pins()); }
   void note_return(FaultRow& row, Timestamp mended) const;
 
+  std::array<std::optional<HiddenPc>, 2> hidden_;
   std::vector<CapturedPacket> first_words_;
 };
 

@@ -97,6 +97,15 @@ TEST_F(TwoHomesTest, LosesAsManyAsItIsTold) {
   EXPECT_NEAR(heard, 200, 20);
 }
 
+TEST_F(TwoHomesTest, LetsOnlyThePortThroughThatItIsTold) {
+  homes->let_only_pass(port + 1);
+  say(1);
+  EXPECT_EQ(listener->hear(100ms), std::nullopt);
+  homes->let_only_pass(port);
+  say(2);
+  EXPECT_EQ(listener->hear(), 2);
+}
+
 TEST_F(TwoHomesTest, DelaysAndDoubles) {
   homes->set(Home::parent, {.delay = 80ms, .doubled = 1});
   const Timestamp before = SteadyClock{}.now();

@@ -127,7 +127,7 @@ static void answer_touch(const void* sample) {
                             .contact_id = contact->id,
                             .phase = contact->phase,
                             .box = contact->box,
-                            .outcome = (telehug_v1_FeltOutcome)(i % 6),
+                            .outcome = (telehug_v1_FeltOutcome)(i % (telehug_v1_FELT_ANOTHER_SENDER + 1)),
                             .actuators = {._maximum = max_actuators,
                                           ._length = 2 * i < max_actuators ? 2 * i : max_actuators,
                                           ._buffer = actuators},

@@ -97,6 +97,22 @@ TEST_F(ConfigFaults, IncludeAPeersAddressWhileOnlyLoopbackIsAllowed) {
               HasSubstr("c.toml:3: peer.addresses are of the network"));
 }
 
+TEST_F(ConfigFaults, IncludeAPublicAddressThatIsNoneOrHasNoPort) {
+  EXPECT_THAT(active_faults("[peer]\npublic_address = \"home\"\npublic_port = 7600\n"),
+              HasSubstr("c.toml:2: peer.public_address: \"home\" is not an IPv4 address"));
+  EXPECT_THAT(active_faults("[peer]\npublic_address = \"198.51.100.7\"\n"),
+              HasSubstr("c.toml:2: peer.public_address and peer.public_port belong together"));
+  EXPECT_THAT(active_faults("[peer]\npublic_port = 7600\n"),
+              HasSubstr("c.toml:2: peer.public_address and peer.public_port belong together"));
+  EXPECT_THAT(active_faults("[peer]\npublic_address = \"198.51.100.7\"\npublic_port = 65535\n"),
+              HasSubstr("c.toml:3: peer.public_port is 65535; it must be within 0 .. 65534"));
+}
+
+TEST_F(ConfigFaults, IncludeAPublicAddressWhileOnlyLoopbackIsAllowed) {
+  EXPECT_THAT(active_faults("[peer]\nloopback_only = true\npublic_address = \"198.51.100.7\"\npublic_port = 7600\n"),
+              HasSubstr("c.toml:3: peer.public_address is of the network"));
+}
+
 // What the configuration lets pass must not be refused later by DDS or by the safety stage.
 TEST_F(ConfigFaults, IncludeWhatTheDaemonsWouldRefuse) {
   EXPECT_THAT(active_faults("[peer]\ndomain = 101\n"), HasSubstr("c.toml:2: peer.domain is 101"));

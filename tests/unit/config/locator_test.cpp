@@ -55,8 +55,23 @@ TEST(Addresses, HaveCommasBetweenThem) {
   EXPECT_TRUE(parse_addresses("")->empty());
   EXPECT_EQ(*parse_addresses("192.0.2.7"), std::vector<std::string>{"192.0.2.7"});
   EXPECT_EQ(*parse_addresses("192.0.2.7, 198.51.100.1"), (std::vector<std::string>{"192.0.2.7", "198.51.100.1"}));
-  for (const char* wrong : {",", "192.0.2.7,", " ", "192.0.2", "192.0.2.7:7400", "192.0.2.7 198.51.100.1", "::1"})
+  for (const char* wrong : {",", "192.0.2.7,", " ", "192.0.2", "192.0.2.7 198.51.100.1", "::1"})
     EXPECT_FALSE(parse_addresses(wrong)) << wrong;
+}
+
+TEST(Addresses, MayHaveAPortEach) {
+  EXPECT_EQ(*parse_addresses("192.0.2.7:7600,198.51.100.1"),
+            (std::vector<std::string>{"192.0.2.7:7600", "198.51.100.1"}));
+  for (const char* wrong : {"192.0.2.7:", "192.0.2.7:0", "192.0.2.7:65536", "192.0.2.7:-1", "192.0.2.7:7600:1",
+                            "192.0.2.7:76 00", ":7600", "grandma:7600"})
+    EXPECT_FALSE(parse_addresses(wrong)) << wrong;
+}
+
+TEST(PublicAddress, IsOneIpv4AddressOrNone) {
+  EXPECT_EQ(*parse_address(""), "");
+  EXPECT_EQ(*parse_address("198.51.100.7"), "198.51.100.7");
+  for (const char* wrong : {"198.51.100", "198.51.100.7:7600", "198.51.100.7,198.51.100.8", "grandma", "::1", " "})
+    EXPECT_FALSE(parse_address(wrong)) << wrong;
 }
 
 }  // namespace

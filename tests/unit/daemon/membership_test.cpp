@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include "doubles/temporary_folder.hpp"
+#include "pairing/wireguard.hpp"
 
 namespace telehug {
 namespace {
@@ -62,6 +63,29 @@ TEST_F(AMembership, OfAPairUseItsFilesAndItsPartition) {
   EXPECT_EQ(paired.dds.partition, pair.partition);
   EXPECT_FALSE(paired.dds.loopback_only);
   EXPECT_EQ(paired.dds.peers, std::vector<std::string>{"192.0.2.7"});
+}
+
+TEST_F(AMembership, OfAPairTellTheForwardedPorts) {
+  (void)pair_with("Grandma");
+  EXPECT_FALSE(only().dds.public_address);
+  config.public_address = "198.51.100.7";
+  config.public_port = 7600;
+  const auto known_as = only().dds.public_address;
+  ASSERT_TRUE(known_as);
+  EXPECT_EQ(known_as->address, "198.51.100.7");
+  EXPECT_EQ(known_as->port, 7600);
+}
+
+TEST_F(AMembership, OfAPairWithATunnelFindThePeerInIt) {
+  PairStore parent(folder / "parent", Side::active);
+  const auto granted =
+      PairStore(config.pairs_folder, Side::passive).grant(parent.request("Grandma").value(), "Mia", now, "home:51820");
+  const std::string in_tunnel = tunnel_of(granted->pair)->peer_address;
+  EXPECT_EQ(only().dds.peers, (std::vector<std::string>{"192.0.2.7", in_tunnel}));
+  config.addresses.clear();
+  EXPECT_EQ(only().dds.peers, std::vector<std::string>{in_tunnel});
+  config.loopback_only = true;
+  EXPECT_TRUE(only().dds.peers.empty());
 }
 
 TEST_F(AMembership, OfAWearerAreAllThatWereGrantedOrThoseThatAreNamed) {
