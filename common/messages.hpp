@@ -128,4 +128,12 @@ struct StopAll {
   std::string reason;
 };
 
+// The wearer hugs back: seen and heard by the active side's person, felt by nobody.
+struct Hug {
+  SessionId session;
+  std::uint64_t sequence = 0;
+  std::int64_t sent_time_ns = 0;
+  double strength = 1;  // above 0, up to 1
+};
+
 }  // namespace telehug

@@ -110,5 +110,6 @@ template class Reader<Felt>;
 template class Reader<Heartbeat>;
 template class Reader<SideStatus>;
 template class Reader<StopAll>;
+template class Reader<Hug>;
 
 }  // namespace telehug

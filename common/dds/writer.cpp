@@ -62,5 +62,6 @@ template class Writer<Felt>;
 template class Writer<Heartbeat>;
 template class Writer<SideStatus>;
 template class Writer<StopAll>;
+template class Writer<Hug>;
 
 }  // namespace telehug
