@@ -35,6 +35,7 @@ ActiveDaemon::ActiveDaemon(const ActiveConfig& config, Membership membership, st
       link_keeper_(membership_.dds, clock),
       peer_(link_keeper_.participant(), Side::active, session_, std::chrono::milliseconds(config.heartbeat_timeout_ms),
             clock),
+      touches_(session_),
       events_published_(metrics_.counter("events_published")),
       touches_published_(metrics_.counter("touches_published")),
       publish_failed_(metrics_.counter("events_not_published")),
@@ -118,6 +119,7 @@ void ActiveDaemon::touch_loop() {
 void ActiveDaemon::adopt_rig() {
   auto fresh = new_rig_.try_take();
   if (!fresh) return;
+  publish(touches_.build(clock_.now()), 0);  // what the old one's fingers touched is over
   rig_ = *std::move(fresh);
   map_ = {};
 }
@@ -196,7 +198,7 @@ void ActiveDaemon::hold_back() {
 }
 
 void ActiveDaemon::publish(const TouchEvent* event, std::uint64_t frame_sequence) {
-  local_touch_.put(rig_->pipeline.contacts(), rig_->pipeline.screen(), clock_.now());
+  if (rig_) local_touch_.put(rig_->pipeline.contacts(), rig_->pipeline.screen(), clock_.now());
   if (event == nullptr) return;
   const Timestamp started = clock_.now();
   if (!traffic_.write(*event)) {
@@ -256,7 +258,7 @@ void ActiveDaemon::load_rig_if_changed() {
   if (calibration_time_ == time) return;
   calibration_time_ = time;
 
-  auto rig = make_rig(config_, session_, clock_, metrics_, rigs_made_++ * versions_a_rig);
+  auto rig = make_rig(config_, touches_, clock_, metrics_, rigs_made_++ * versions_a_rig);
   const std::string problem = rig ? "" : rig.error().message;
   const std::string face_note = rig ? (*rig)->face_note : "";
   if (rig) {

@@ -23,6 +23,7 @@
 #include "overlay/x11_overlay.hpp"
 #include "peer_link/peer_link.hpp"
 #include "peer_link/traffic.hpp"
+#include "publish/touch_stream.hpp"
 #include "rig.hpp"
 #include "sending_switch.hpp"
 #include "service/control_server.hpp"
@@ -120,6 +121,7 @@ class ActiveDaemon {
   PeerLink peer_;
 
   // Touch thread
+  TouchStream touches_;
   std::unique_ptr<Rig> rig_;
   Frame frame_;
   BodyMap map_;

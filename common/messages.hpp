@@ -61,7 +61,7 @@ struct TouchEvent {
   std::uint64_t sequence = 0;      // 1, 2, ... within the session
   std::int64_t frame_time_ns = 0;  // when the camera took the frame
   std::int64_t sent_time_ns = 0;
-  std::uint32_t body_map_version = 0;
+  std::uint32_t body_map_version = 0;  // that contacts were read against; the largest number: the standard grid itself
   boost::container::static_vector<Contact, max_contacts>
       contacts;  // the whole state: what is not in it is not touching
   boost::container::static_vector<Transition, max_transitions> transitions;  // oldest first

@@ -12,8 +12,9 @@ telehug_test(test_suspend_detector KIND unit SUBJECT link
   DEPS telehug_network)
 
 telehug_test(test_publish KIND unit SUBJECT link
-  SOURCES unit/publish/touch_event_builder_test.cpp doubles/allocation_counter.cpp
-  DEPS active_publish)
+  SOURCES unit/publish/hug_player_test.cpp unit/publish/touch_event_builder_test.cpp unit/publish/touch_stream_test.cpp
+    doubles/allocation_counter.cpp
+  DEPS active_publish telehug_dds)
 
 telehug_test(test_subscribe KIND unit SUBJECT link
   SOURCES unit/subscribe/lossy_way_test.cpp unit/subscribe/staleness_test.cpp unit/subscribe/touch_order_test.cpp
