@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 telehug_test(test_peer KIND unit SUBJECT link
-  SOURCES unit/peer/heartbeat_test.cpp unit/peer/session_test.cpp
+  SOURCES unit/peer/heard_hugs_test.cpp unit/peer/heartbeat_test.cpp unit/peer/session_test.cpp
   DEPS telehug_peer)
 
 telehug_test(test_link_supervisor KIND unit SUBJECT link
@@ -37,5 +37,5 @@ telehug_test(test_pairing_link KIND unit SUBJECT link
   SOURCES unit/pairing_link/pairing_code_test.cpp unit/pairing_link/pairing_exchange_test.cpp
   DEPS telehug_pairing_link OpenSSL::SSL)
 telehug_test(test_membership KIND unit SUBJECT link
-  SOURCES unit/daemon/membership_test.cpp
+  SOURCES unit/daemon/hug_request_test.cpp unit/daemon/membership_test.cpp
   DEPS telehug_daemon)
