@@ -42,13 +42,16 @@ ActiveDaemon::ActiveDaemon(const ActiveConfig& config, Membership membership, st
       frames_broken_(metrics_.counter("frames_broken")),
       frames_missed_(metrics_.counter("frames_missed")),
       camera_losses_(metrics_.counter("camera_losses")),
+      hugs_begun_(metrics_.counter("hugs_begun")),
       camera_latency_(metrics_.latency("camera")),
       publish_latency_(metrics_.latency("publish")),
       total_latency_(metrics_.latency("frame_to_published")),
       local_touch_(local_outputs(config.local_touch), clock),
       sending_switch_(config.sending.at_start, config.sending.only_in_front),
       calibration_path_(rig_file(config.rig)),
+      desktop_notifier_(clock),
       traffic_([this](const Felt& felt) { felt_.push(felt); }),
+      hugs_(clock),
       control_(std::make_unique<ControlServer>(control_options(config.control, Side::active))) {
   if (config_.overlay.show)
     overlay_.emplace(X11OverlayConfig{.display = {}, .monitor = config_.body_map.monitor}, clock);
@@ -56,10 +59,12 @@ ActiveDaemon::ActiveDaemon(const ActiveConfig& config, Membership membership, st
     hotkey_.emplace(X11HotkeyConfig{.display = {}, .keys = config_.sending.hotkey}, clock);
   answer_commands();
   traffic_.connect(link_keeper_.participant());
+  hugs_.connect(link_keeper_.participant());
 }
 
 ActiveDaemon::~ActiveDaemon() {
   end_thread();
+  hugs_.disconnect();
   traffic_.disconnect();
   peer_.disconnect();
   // The queue's own destructor (Boost 1.74) does not destroy what it holds.
@@ -82,6 +87,7 @@ ExitCode ActiveDaemon::run(Signals& signals) {
     tell_watchers();
     tell_local_touch();
     serve_desktop();
+    show_hugs();
     tell_peer();
     keep_link();
   }
@@ -102,7 +108,8 @@ void ActiveDaemon::end_thread() {
 void ActiveDaemon::touch_loop() {
   while (!ending_) {
     const Timestamp now = clock_.now();
-    peer_.serve(now);
+    if (const auto heard = peer_.serve(now)) hugs_.observe(*heard);
+    serve_hugs(now);
     adopt_rig();
     if (camera_wanted(now)) {
       take_frame();
@@ -113,7 +120,8 @@ void ActiveDaemon::touch_loop() {
     notifier_.alive(now);
   }
   camera_->close();
-  if (rig_) publish(rig_->pipeline.process_nothing(map_, false), 0);
+  touches_.hug().break_off();
+  publish(touches_.build(clock_.now()), 0);
 }
 
 void ActiveDaemon::adopt_rig() {
@@ -175,10 +183,8 @@ void ActiveDaemon::take_frame() {
 void ActiveDaemon::rest() {
   camera_->close();
   camera_lost_ = false;
-  if (rig_) {
-    rig_->face->update(map_);
-    publish(rig_->pipeline.process_nothing(map_, false), frame_.sequence);
-  }
+  if (rig_) rig_->face->update(map_);
+  publish(rig_ ? rig_->pipeline.process_nothing(map_, false) : touches_.build(clock_.now()), frame_.sequence);
   std::this_thread::sleep_for(resting_round);
 }
 
@@ -300,7 +306,7 @@ void ActiveDaemon::keep_link() {
     const std::lock_guard lock(state_mutex_);
     peer = state_.peer;
   }
-  link_keeper_.serve(peer, LinkKeeper::endpoints(peer_, traffic_));
+  link_keeper_.serve(peer, LinkKeeper::endpoints(peer_, traffic_, hugs_));
 }
 
 }  // namespace telehug

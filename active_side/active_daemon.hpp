@@ -19,8 +19,10 @@
 #include "daemon/membership.hpp"
 #include "daemon/stop_switch.hpp"
 #include "local_touch/local_touch.hpp"
+#include "notify/desktop_notifier.hpp"
 #include "overlay/x11_hotkey.hpp"
 #include "overlay/x11_overlay.hpp"
+#include "peer_link/hug_inbox.hpp"
 #include "peer_link/peer_link.hpp"
 #include "peer_link/traffic.hpp"
 #include "publish/touch_stream.hpp"
@@ -83,6 +85,7 @@ class ActiveDaemon {
 
   // Touch thread
   void touch_loop();
+  void serve_hugs(Timestamp now);
   void adopt_rig();
   [[nodiscard]] bool camera_wanted(Timestamp now);
   void take_frame();
@@ -98,13 +101,16 @@ class ActiveDaemon {
   void tell_local_touch();
   void show_touched_box(const FaceState& face, FaceWorker* worker);
   void serve_desktop();
+  void show_hugs();
   void tell_peer();
   void keep_link();
   void answer_commands();
   nlohmann::json order_face(const nlohmann::json& request);
+  nlohmann::json order_hug(const nlohmann::json& request);
   nlohmann::json status() const;
   [[nodiscard]] nlohmann::json sending_json(const TouchThreadState& state) const;
   [[nodiscard]] std::optional<SideStatus> peer_told() const;
+  [[nodiscard]] nlohmann::json last_hug_json() const;
   nlohmann::json problems(const TouchThreadState& state, const FaceState& face) const;
 
   ActiveConfig config_;
@@ -137,6 +143,7 @@ class ActiveDaemon {
   Counter& frames_broken_;
   Counter& frames_missed_;
   Counter& camera_losses_;
+  Counter& hugs_begun_;
   LatencyHistogram& camera_latency_;
   LatencyHistogram& publish_latency_;
   LatencyHistogram& total_latency_;
@@ -151,6 +158,8 @@ class ActiveDaemon {
   TouchThreadState state_;
   boost::lockfree::spsc_queue<SentTouch, boost::lockfree::capacity<1024>> sent_touches_;
   boost::lockfree::spsc_queue<Felt, boost::lockfree::capacity<1024>> felt_;
+  LatestSlot<HugOrder> hug_order_;
+  boost::lockfree::spsc_queue<ShownHug, boost::lockfree::capacity<16>> shown_hugs_;
 
   // Housekeeping
   const std::filesystem::path calibration_path_;
@@ -164,6 +173,8 @@ class ActiveDaemon {
   std::string rig_problem_;
   std::string face_note_;
   std::optional<SideStatus> peer_status_;
+  std::optional<ShownHug> last_hug_;
+  std::string hug_problem_;  // why it was not seen on the desktop
   bool told_recording_over_ = false;
   TouchedBox touched_box_;
   std::optional<X11Overlay> overlay_;  // if it is wanted
@@ -175,9 +186,13 @@ class ActiveDaemon {
   SayOnChange say_face_;
   SayOnChange say_rig_;
   SayOnChange say_local_touch_;
+  DesktopNotifier desktop_notifier_;
+  Timestamp glows_until_;  // the overlay, after a hug
   SayOnChange say_desktop_;
+  SayOnChange say_hug_;
 
   Traffic<TouchEvent, Felt> traffic_;
+  HugInbox hugs_;
   std::unique_ptr<ControlServer> control_;
   std::thread touch_thread_;
 };

@@ -79,6 +79,7 @@ bool no_face(const FaceState& face) {
 void ActiveDaemon::answer_commands() {
   control_->on("status", [this](const Json&) { return status(); });
   control_->on("face", [this](const Json& request) { return order_face(request); });
+  control_->on("hug", [this](const Json& request) { return order_hug(request); });
   stop_.serve(*control_);
   sending_switch_.serve(*control_);
 }
@@ -196,8 +197,10 @@ Json ActiveDaemon::status() const {
   counters["touches_with_old_map"] = state.nobody.map_too_old;
   counters["touches_outside_grid"] = state.nobody.outside_grid;
   counters["touches_withheld"] = state.withheld;
+  counters["hugs_received"] = hugs_.received();
+  counters["hugs_not_shown"] = hugs_.not_shown();
   counters["peer_losses"] = state.peer.losses;
-  counters["messages_dropped"] = peer_.dropped() + traffic_.dropped();
+  counters["messages_dropped"] = peer_.dropped() + traffic_.dropped() + hugs_.dropped();
 
   const char* open_why = state.camera_open      ? state.peer.alive ? "a peer is connected" : "this PC uses the touches"
                          : state.recording_over ? "the recording is over"
@@ -230,6 +233,7 @@ Json ActiveDaemon::status() const {
                  {"counters", counters},
                  {"latency_ms", metrics_.latencies_json()}};
   if (membership_.pair) answer["pair"] = pair_json(*membership_.pair);
+  if (Json hug = last_hug_json(); !hug.is_null()) answer["last_hug"] = std::move(hug);
   if (!state.camera_setup.empty()) answer["camera"]["setup"] = state.camera_setup;
   if (face.map.version != 0 && face.scale) answer["face"]["places_px"] = body_map_json(face.map, *face.scale);
   for (const LocalTouchState& output : local_touch_.states())
@@ -256,7 +260,10 @@ void ActiveDaemon::show_touched_box(const FaceState& face, FaceWorker* worker) {
   if (face.map.version == 0) touched_box_.clear();
   const auto& shown = touched_box_.shown();
   const auto box = shown ? box_rect(face.map, shown->box) : std::nullopt;
-  if (box && face.scale) {
+  if (clock_.now() < glows_until_ && face.map.version != 0 && face.scale) {
+    const cv::Rect2d person_px = face.scale->to_px(face.map.face) | face.scale->to_px(face.map.visible);
+    overlay_->show({cv::Point(person_px.tl()), cv::Point(person_px.br())}, OverlayState::hugged);
+  } else if (box && face.scale) {
     const cv::Rect2d box_px = face.scale->to_px(*box);
     overlay_->show({cv::Point(box_px.tl()), cv::Point(box_px.br())},
                    shown->felt ? OverlayState::felt : OverlayState::touched);

@@ -37,6 +37,9 @@ PassiveDaemon::PassiveDaemon(const PassiveConfig& config, Membership membership,
       events_replaced_(metrics_.counter("events_replaced_by_newer")),
       events_unvouched_(metrics_.counter("events_without_heartbeat")),
       total_latency_(metrics_.latency("event_to_link")),
+      hug_back_(session_),
+      hugs_sent_(metrics_.counter("hugs_sent")),
+      hugs_too_soon_(metrics_.counter("hugs_too_soon")),
       link_keeper_(membership_.dds, clock),
       peer_(link_keeper_.participant(), Side::passive, session_,
             std::chrono::milliseconds(config.safety.heartbeat_timeout_ms), clock),
@@ -48,10 +51,12 @@ PassiveDaemon::PassiveDaemon(const PassiveConfig& config, Membership membership,
       control_(std::make_unique<ControlServer>(control_options(config.control, Side::passive))) {
   answer_commands();
   traffic_.connect(link_keeper_.participant());
+  hugs_.connect(link_keeper_.participant());
 }
 
 PassiveDaemon::~PassiveDaemon() {
   end_thread();
+  hugs_.disconnect();
   traffic_.disconnect();
   peer_.disconnect();
 }
@@ -183,7 +188,7 @@ void PassiveDaemon::tell_peer() {
 }
 
 void PassiveDaemon::keep_link() {
-  link_keeper_.serve(state().peer, LinkKeeper::endpoints(peer_, traffic_));
+  link_keeper_.serve(state().peer, LinkKeeper::endpoints(peer_, traffic_, hugs_));
 }
 
 }  // namespace telehug

@@ -16,8 +16,10 @@
 #include "daemon/link_keeper.hpp"
 #include "daemon/membership.hpp"
 #include "daemon/stop_switch.hpp"
+#include "hug_back.hpp"
 #include "jacket/jacket_profile.hpp"
 #include "passive_pipeline.hpp"
+#include "peer_link/one_way.hpp"
 #include "peer_link/peer_link.hpp"
 #include "peer_link/traffic.hpp"
 #include "safety/safety_stage.hpp"
@@ -76,6 +78,7 @@ class PassiveDaemon {
   void tell_peer();
   void keep_link();
   void answer_commands();
+  nlohmann::json order_hug(const nlohmann::json& request);
   nlohmann::json status() const;
   [[nodiscard]] std::optional<SideStatus> peer_told() const;
   nlohmann::json problems(const DriveThreadState& state) const;
@@ -120,9 +123,14 @@ class PassiveDaemon {
   SayOnChange say_jacket_;
   SayOnChange say_peer_;
 
+  HugBack hug_back_;  // the control thread's
+  Counter& hugs_sent_;
+  Counter& hugs_too_soon_;
+
   LinkKeeper link_keeper_;
   PeerLink peer_;
   Traffic<Felt, TouchEvent> traffic_;
+  Outgoing<Hug> hugs_;
   std::unique_ptr<ControlServer> control_;
   std::thread drive_thread_;
 };

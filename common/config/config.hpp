@@ -79,6 +79,10 @@ struct OverlayConfig {
   bool show = false;
 };
 
+struct HugConfig {
+  bool notify = true;
+};
+
 struct ActiveConfig {
   CameraConfig camera;
   RigConfig rig;
@@ -87,6 +91,7 @@ struct ActiveConfig {
   BodyMapConfig body_map;
   SendingConfig sending;
   OverlayConfig overlay;
+  HugConfig hug;
   PeerConfig peer;
   int heartbeat_timeout_ms = 250;  // [peer]
   ControlConfig control;

@@ -30,18 +30,18 @@ class LinkKeeper {
     std::function<void(DdsParticipant&)> connect;
   };
 
-  // Of a PeerLink and a Traffic.
-  template <typename SomeTraffic>
-  [[nodiscard]] static Endpoints endpoints(PeerLink& peer, SomeTraffic& traffic) {
+  // Of a PeerLink and what else goes to and fro: Traffic, Outgoing, Incoming.
+  template <typename... SomeTraffic>
+  [[nodiscard]] static Endpoints endpoints(PeerLink& peer, SomeTraffic&... traffic) {
     return {.disconnect =
                 [&] {
-                  traffic.disconnect();
+                  (traffic.disconnect(), ...);
                   peer.disconnect();
                 },
             .connect =
                 [&](DdsParticipant& participant) {
                   peer.connect(participant);
-                  traffic.connect(participant);
+                  (traffic.connect(participant), ...);
                 }};
   }
 
