@@ -41,7 +41,7 @@ bool lists(sd_bus_message* message, std::string_view wanted) {
   bool found = false;
   if (sd_bus_message_enter_container(message, SD_BUS_TYPE_ARRAY, "s") < 0) return false;
   const char* text = nullptr;
-  while (sd_bus_message_read_basic(message, SD_BUS_TYPE_STRING, &text) > 0)
+  while (sd_bus_message_read(message, "s", &text) > 0)
     found = found || text == wanted;
   return found;
 }

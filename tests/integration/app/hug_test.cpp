@@ -89,7 +89,8 @@ TEST_F(AHugOfTheSender, IsOffSoonAfterTheSenderIsKilledInTheMiddle) {
 
 TEST_F(AHugOfTheSender, GoesOutThoughTouchesOfTheScreenDont) {
   ASSERT_TRUE(pair.start_all()) << pair.logs();
-  ASSERT_EQ(pair.run({TELEHUG_BIN "/telehug", "send", "off", "--socket", pair.socket(Side::active).string()}).code, 0);
+  const std::string program = TELEHUG_BIN "/telehug";
+  ASSERT_EQ(pair.run({program, "send", "off", "--socket", pair.socket(Side::active).string()}).code, 0);
   ASSERT_TRUE(eventually([&] { return !pair.felt() && !pair.camera_open(); })) << pair.logs();
   ASSERT_EQ(hug().code, 0);
   EXPECT_TRUE(becomes_felt()) << pair.logs();

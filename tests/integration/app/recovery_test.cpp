@@ -60,7 +60,8 @@ TEST_F(Recovery, AFingerIsFeltOnAfterANewCalibration) {
   pair.calibrate("replay:" TELEHUG_FIXTURES "/rig2");
   ASSERT_TRUE(eventually([&] {
     return pair.status(Side::active).at("face").at("map_version").get<std::uint32_t>() > before + 1000;
-  })) << "it is not in use" << pair.logs();
+  })) << "it is not in use"
+      << pair.logs();
   const std::uint64_t accepted = pair.counter(Side::passive, "events_accepted");
   EXPECT_TRUE(eventually([&] { return pair.felt() && pair.counter(Side::passive, "events_accepted") > accepted + 10; }))
       << pair.logs();
