@@ -32,18 +32,21 @@ ActiveDaemon::ActiveDaemon(const ActiveConfig& config, Memberships memberships, 
       session_(new_session_id()),
       camera_(std::move(camera)),
       camera_name_(camera_->name()),
+      touches_(session_),
       events_published_(metrics_.counter("events_published")),
       touches_published_(metrics_.counter("touches_published")),
       publish_failed_(metrics_.counter("events_not_published")),
       frames_broken_(metrics_.counter("frames_broken")),
       frames_missed_(metrics_.counter("frames_missed")),
       camera_losses_(metrics_.counter("camera_losses")),
+      hugs_begun_(metrics_.counter("hugs_begun")),
       camera_latency_(metrics_.latency("camera")),
       publish_latency_(metrics_.latency("publish")),
       total_latency_(metrics_.latency("frame_to_published")),
       local_touch_(local_outputs(config.local_touch), clock),
       sending_switch_(config.sending.at_start, config.sending.only_in_front),
       calibration_path_(rig_file(config.rig)),
+      desktop_notifier_(clock),
       wearers_(PairsWatch(config.peer, Side::active, clock),
                [this](Membership membership, const Wearers::List&) {
                  return std::make_shared<ConnectedWearer>(
@@ -83,6 +86,7 @@ ExitCode ActiveDaemon::run(Signals& signals) {
     tell_watchers();
     tell_local_touch();
     serve_desktop();
+    show_hugs();
     keep_connections();
   }
   notifier_.stopping();
@@ -94,6 +98,8 @@ ExitCode ActiveDaemon::run(Signals& signals) {
 void ActiveDaemon::end_thread() {
   ending_ = true;
   if (touch_thread_.joinable()) touch_thread_.join();
+  // The queue's own destructor (Boost 1.74) does not destroy what it holds.
+  shown_hugs_.consume_all([](const SeenHug&) {});
   wearers_.close();
 }
 
@@ -104,7 +110,8 @@ void ActiveDaemon::touch_loop() {
     const Timestamp now = clock_.now();
     wearers_.adopt();
     for (const auto& wearer : wearers_.adopted())
-      wearer->connection.serve(now);
+      hear(*wearer, now);
+    serve_hugs(now);
     adopt_rig();
     if (camera_wanted(now)) {
       take_frame();
@@ -115,14 +122,22 @@ void ActiveDaemon::touch_loop() {
     notifier_.alive(now);
   }
   camera_->close();
-  if (rig_) publish(rig_->pipeline.process_nothing(map_, false), 0);
+  touches_.hug().break_off();
+  publish(touches_.build(clock_.now()), 0);
 }
 
 void ActiveDaemon::adopt_rig() {
   auto fresh = new_rig_.try_take();
   if (!fresh) return;
+  publish(touches_.build(clock_.now()), 0);  // what the old one's fingers touched is over
   rig_ = *std::move(fresh);
   map_ = {};
+}
+
+void ActiveDaemon::hear(ConnectedWearer& wearer, Timestamp now) {
+  HugInbox& hugs = wearer.connection.beside().hugs();
+  if (const auto heard = wearer.connection.serve(now)) hugs.observe(*heard);
+  if (const auto hug = hugs.take()) shown_hugs_.push({*hug, wearer.membership().pair ? wearer.name() : "The wearer"});
 }
 
 bool ActiveDaemon::anybody_listens(Timestamp now) {
@@ -180,10 +195,8 @@ void ActiveDaemon::take_frame() {
 void ActiveDaemon::rest() {
   camera_->close();
   camera_lost_ = false;
-  if (rig_) {
-    rig_->face->update(map_);
-    publish(rig_->pipeline.process_nothing(map_, false), frame_.sequence);
-  }
+  if (rig_) rig_->face->update(map_);
+  publish(rig_ ? rig_->pipeline.process_nothing(map_, false) : touches_.build(clock_.now()), frame_.sequence);
   std::this_thread::sleep_for(resting_round);
 }
 
@@ -211,7 +224,7 @@ bool ActiveDaemon::send(const TouchEvent& event) {
 }
 
 void ActiveDaemon::publish(const TouchEvent* event, std::uint64_t frame_sequence) {
-  local_touch_.put(rig_->pipeline.contacts(), rig_->pipeline.screen(), clock_.now());
+  if (rig_) local_touch_.put(rig_->pipeline.contacts(), rig_->pipeline.screen(), clock_.now());
   if (event == nullptr) return;
   const Timestamp started = clock_.now();
   if (!send(*event)) {
@@ -272,7 +285,7 @@ void ActiveDaemon::load_rig_if_changed() {
   if (calibration_time_ == time) return;
   calibration_time_ = time;
 
-  auto rig = make_rig(config_, session_, clock_, metrics_, rigs_made_++ * versions_a_rig);
+  auto rig = make_rig(config_, touches_, clock_, metrics_, rigs_made_++ * versions_a_rig);
   const std::string problem = rig ? "" : rig.error().message;
   const std::string face_note = rig ? (*rig)->face_note : "";
   if (rig) {

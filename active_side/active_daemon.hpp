@@ -19,8 +19,10 @@
 #include "daemon/connections.hpp"
 #include "daemon/stop_switch.hpp"
 #include "local_touch/local_touch.hpp"
+#include "notify/desktop_notifier.hpp"
 #include "overlay/x11_hotkey.hpp"
 #include "overlay/x11_overlay.hpp"
+#include "publish/touch_stream.hpp"
 #include "rig.hpp"
 #include "sending_switch.hpp"
 #include "service/control_server.hpp"
@@ -59,6 +61,12 @@ struct TouchThreadState {
   std::optional<SentTouch> last_touch;
 };
 
+// A wearer's hug, and whose it was.
+struct SeenHug {
+  ShownHug hug;
+  std::string from;
+};
+
 // The parent's PC: one thread for the touch path, one for the face (FaceWorker), the calling one for everything that
 // may take its time. Touches go to every wearer who is connected. The camera is open only while one is, or this PC uses
 // the touches itself, and the screen is looked at only while one is.
@@ -82,6 +90,8 @@ class ActiveDaemon {
   // Touch thread
   [[nodiscard]] bool anybody_listens(Timestamp now);
   void touch_loop();
+  void hear(ConnectedWearer& wearer, Timestamp now);
+  void serve_hugs(Timestamp now);
   void adopt_rig();
   [[nodiscard]] bool camera_wanted(Timestamp now);
   void take_frame();
@@ -98,13 +108,16 @@ class ActiveDaemon {
   void tell_local_touch();
   void show_touched_box(const FaceState& face, FaceWorker* worker);
   void serve_desktop();
+  void show_hugs();
   [[nodiscard]] bool follow_pairs();
   void keep_connections();
   [[nodiscard]] std::vector<ConnectionStatus> connections() const;
   void answer_commands();
   nlohmann::json order_face(const nlohmann::json& request);
+  nlohmann::json order_hug(const nlohmann::json& request);
   nlohmann::json status() const;
   [[nodiscard]] nlohmann::json sending_json(const TouchThreadState& state) const;
+  [[nodiscard]] nlohmann::json last_hug_json() const;
   nlohmann::json problems(const TouchThreadState& state, const FaceState& face,
                           const std::vector<ConnectionStatus>& connections) const;
 
@@ -120,6 +133,7 @@ class ActiveDaemon {
   const std::string camera_name_;
 
   // Touch thread
+  TouchStream touches_;
   std::unique_ptr<Rig> rig_;
   Frame frame_;
   BodyMap map_;
@@ -135,6 +149,7 @@ class ActiveDaemon {
   Counter& frames_broken_;
   Counter& frames_missed_;
   Counter& camera_losses_;
+  Counter& hugs_begun_;
   LatencyHistogram& camera_latency_;
   LatencyHistogram& publish_latency_;
   LatencyHistogram& total_latency_;
@@ -148,6 +163,8 @@ class ActiveDaemon {
   mutable std::mutex state_mutex_;
   TouchThreadState state_;
   boost::lockfree::spsc_queue<SentTouch, boost::lockfree::capacity<1024>> sent_touches_;
+  LatestSlot<HugOrder> hug_order_;
+  boost::lockfree::spsc_queue<SeenHug, boost::lockfree::capacity<16>> shown_hugs_;
 
   // Housekeeping
   const std::filesystem::path calibration_path_;
@@ -160,6 +177,8 @@ class ActiveDaemon {
   mutable std::mutex words_mutex_;  // guards the sentences below, which the control thread reads
   std::string rig_problem_;
   std::string face_note_;
+  std::optional<SeenHug> last_hug_;
+  std::string hug_problem_;  // why it was not seen on the desktop
   bool told_recording_over_ = false;
   TouchedBox touched_box_;
   std::optional<X11Overlay> overlay_;  // if it is wanted
@@ -170,7 +189,10 @@ class ActiveDaemon {
   SayOnChange say_face_;
   SayOnChange say_rig_;
   SayOnChange say_local_touch_;
+  DesktopNotifier desktop_notifier_;
+  Timestamp glows_until_;  // the overlay, after a hug
   SayOnChange say_desktop_;
+  SayOnChange say_hug_;
 
   Wearers wearers_;
   std::unique_ptr<ControlServer> control_;

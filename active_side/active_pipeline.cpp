@@ -17,7 +17,7 @@ BorderPlace place_of(const BorderLine& border) {
 }  // namespace
 
 ActivePipeline::ActivePipeline(const Calibration& calibration, AnyDetector detector,
-                               const ActivePipelineOptions& options, const SessionId& session, const Clock& clock,
+                               const ActivePipelineOptions& options, TouchStream& stream, const Clock& clock,
                                MetricsRegistry& metrics)
     : image_(calibration.image),
       screen_(calibration.screen),
@@ -28,7 +28,7 @@ ActivePipeline::ActivePipeline(const Calibration& calibration, AnyDetector detec
       detector_(std::move(detector)),
       tracker_(options.tracker),
       gestures_(options.gestures),
-      builder_(session),
+      stream_(stream),
       max_map_age_(options.max_map_age),
       clock_(clock),
       frames_(metrics.counter("frames")),
@@ -119,8 +119,7 @@ const TouchEvent* ActivePipeline::report(const ContactStates& contacts, const Bo
   contacts_ = &gestures_.update(contacts, body);
   BoxedContacts boxed = sending ? boxes_under(*contacts_, map, max_map_age_, tracked, nobody_) : BoxedContacts{};
   leave_out_held_back(boxed);
-  if (!sending) builder_.withhold_downs();
-  const TouchEvent* event = builder_.build(boxed, map.shape, map.version, frame_time, clock_.now());
+  const TouchEvent* event = stream_.build(boxed, map.version, sending, frame_time, clock_.now());
 
   const auto begins = [](const ContactState& contact) { return contact.phase == Phase::down; };
   touches_seen_.add(static_cast<std::uint64_t>(std::count_if(contacts_->begin(), contacts_->end(), begins)));

@@ -12,7 +12,7 @@
 #include "common/clock.hpp"
 #include "detection/upright_picture.hpp"
 #include "finger/any_detector.hpp"
-#include "publish/touch_event_builder.hpp"
+#include "publish/touch_stream.hpp"
 #include "service/metrics.hpp"
 #include "touch/contact_tracker.hpp"
 #include "touch/gesture_recogniser.hpp"
@@ -30,12 +30,12 @@ struct ActivePipelineOptions {
 // wire. One thread uses it; it allocates nothing per frame.
 class ActivePipeline {
  public:
-  // `detector` is made for the upright() calibration. `clock`, `metrics` outlive it.
+  // `detector` is made for the upright() calibration. `stream`, `clock`, `metrics` outlive it.
   ActivePipeline(const Calibration& calibration, AnyDetector detector, const ActivePipelineOptions& options,
-                 const SessionId& session, const Clock& clock, MetricsRegistry& metrics);
+                 TouchStream& stream, const Clock& clock, MetricsRegistry& metrics);
 
-  // The event to send for this frame, or null. Nobody is touched while `sending` is false; contacts that were being
-  // sent end. Valid until the next call.
+  // The event to send for this frame, or null. No finger touches anybody while `sending` is false; contacts that were
+  // being sent end. Valid until the stream's next event.
   const TouchEvent* process(const Frame& frame, const BodyMap& map, bool sending);
 
   // There is no picture (camera lost, nobody wants it): contacts end.
@@ -74,7 +74,7 @@ class ActivePipeline {
   AnyDetector detector_;
   ContactTracker tracker_;
   GestureRecogniser gestures_;
-  TouchEventBuilder builder_;
+  TouchStream& stream_;
   Duration max_map_age_;
   const Clock& clock_;
 

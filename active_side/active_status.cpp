@@ -94,6 +94,7 @@ bool no_face(const FaceState& face) {
 void ActiveDaemon::answer_commands() {
   control_->on("status", [this](const Json&) { return status(); });
   control_->on("face", [this](const Json& request) { return order_face(request); });
+  control_->on("hug", [this](const Json& request) { return order_hug(request); });
   stop_.serve(*control_);
   sending_switch_.serve(*control_);
 }
@@ -210,6 +211,14 @@ Json ActiveDaemon::status() const {
   counters["touches_outside_grid"] = state.nobody.outside_grid;
   counters["touches_withheld"] = state.withheld;
   count_connections(counters, connected);
+  std::uint64_t hugs_received = 0;
+  std::uint64_t hugs_not_shown = 0;
+  for (const auto& wearer : wearers_.all()) {
+    hugs_received += wearer->connection.beside().hugs().received();
+    hugs_not_shown += wearer->connection.beside().hugs().not_shown();
+  }
+  counters["hugs_received"] = hugs_received;
+  counters["hugs_not_shown"] = hugs_not_shown;
 
   const char* open_why = state.camera_open      ? alive ? "a peer is connected" : "this PC uses the touches"
                          : state.recording_over ? "the recording is over"
@@ -240,6 +249,7 @@ Json ActiveDaemon::status() const {
                  {"counters", counters},
                  {"latency_ms", metrics_.latencies_json()}};
   add_connections(answer, connected);
+  if (Json hug = last_hug_json(); !hug.is_null()) answer["last_hug"] = std::move(hug);
   if (!state.camera_setup.empty()) answer["camera"]["setup"] = state.camera_setup;
   if (face.map.version != 0 && face.scale) answer["face"]["places_px"] = body_map_json(face.map, *face.scale);
   for (const LocalTouchState& output : local_touch_.states())
@@ -266,7 +276,10 @@ void ActiveDaemon::show_touched_box(const FaceState& face, FaceWorker* worker) {
   if (face.map.version == 0) touched_box_.clear();
   const auto& shown = touched_box_.shown();
   const auto box = shown ? box_rect(face.map, shown->box) : std::nullopt;
-  if (box && face.scale) {
+  if (clock_.now() < glows_until_ && face.map.version != 0 && face.scale) {
+    const cv::Rect2d person_px = face.scale->to_px(face.map.face) | face.scale->to_px(face.map.visible);
+    overlay_->show({cv::Point(person_px.tl()), cv::Point(person_px.br())}, OverlayState::hugged);
+  } else if (box && face.scale) {
     const cv::Rect2d box_px = face.scale->to_px(*box);
     overlay_->show({cv::Point(box_px.tl()), cv::Point(box_px.br())},
                    shown->felt ? OverlayState::felt : OverlayState::touched);

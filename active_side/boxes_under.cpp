@@ -13,8 +13,14 @@ BoxedContacts boxes_under(const ContactStates& contacts, const BodyMap& map, Dur
   for (const ContactState& contact : contacts) {
     const auto hit = no_face || too_old ? std::nullopt : box_at(map, contact.screen);
     if (hit) {
-      boxed.push_back(
-          {contact.id, contact.phase, contact.screen, contact.speed_mm_s, hit->box, hit->body, contact.gesture});
+      boxed.push_back({.id = contact.id,
+                       .phase = contact.phase,
+                       .screen = contact.screen,
+                       .speed_mm_s = contact.speed_mm_s,
+                       .grid = map.shape,
+                       .box = hit->box,
+                       .body = hit->body,
+                       .gesture = contact.gesture});
     } else if (contact.phase == Phase::down) {
       ++(no_face ? nobody.no_face : too_old ? nobody.map_too_old : nobody.outside_grid);
     }

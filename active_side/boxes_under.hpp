@@ -5,7 +5,7 @@
 
 #include "body_map/body_map.hpp"
 #include "common/clock.hpp"
-#include "publish/touch_event_builder.hpp"
+#include "publish/boxed_contact.hpp"
 #include "touch/contact_state.hpp"
 
 namespace telehug {

@@ -7,20 +7,29 @@
 
 #include "daemon/connection.hpp"
 #include "daemon/renewal_link.hpp"
+#include "peer_link/hug_inbox.hpp"
 
 namespace telehug {
 
 // What goes between the two beside touches and answers.
 class BesideTouches {
  public:
-  BesideTouches(const std::optional<Pair>& pair, const SessionId&, const Clock&) : renewal_(pair) {}
-  void connect(DdsParticipant& participant) { renewal_.connect(participant); }
-  void disconnect() { renewal_.disconnect(); }
+  BesideTouches(const std::optional<Pair>& pair, const SessionId&, const Clock& clock) : renewal_(pair), hugs_(clock) {}
+  void connect(DdsParticipant& participant) {
+    renewal_.connect(participant);
+    hugs_.connect(participant);
+  }
+  void disconnect() {
+    hugs_.disconnect();
+    renewal_.disconnect();
+  }
   void serve(WallTime now) { renewal_.serve(now); }
-  [[nodiscard]] std::uint64_t dropped() const { return renewal_.dropped(); }
+  [[nodiscard]] std::uint64_t dropped() const { return renewal_.dropped() + hugs_.dropped(); }
+  [[nodiscard]] HugInbox& hugs() noexcept { return hugs_; }
 
  private:
   RenewalReceiver renewal_;
+  HugInbox hugs_;
 };
 
 // One of those whom this PC touches: the connection to them, and what they answer.

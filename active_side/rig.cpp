@@ -22,7 +22,7 @@ bool differs(double configured_mm, double calibrated_mm) {
 
 }  // namespace
 
-Result<std::unique_ptr<Rig>> make_rig(const ActiveConfig& config, const SessionId& session, const Clock& clock,
+Result<std::unique_ptr<Rig>> make_rig(const ActiveConfig& config, TouchStream& stream, const Clock& clock,
                                       MetricsRegistry& metrics, std::uint32_t versions_after) {
   const std::filesystem::path path = rig_file(config.rig);
   if (!std::filesystem::exists(path)) {
@@ -75,9 +75,9 @@ Result<std::unique_ptr<Rig>> make_rig(const ActiveConfig& config, const SessionI
     AnyDetector detector = make_detector(config.touch.detector, *calibration, background);
     options.tracker = tracker_options(*calibration, detector);
     options.tracker.up_after = std::chrono::milliseconds(config.touch.up_after_ms);
-    return std::make_unique<Rig>(
-        Rig{ActivePipeline(*calibration, std::move(detector), options, session, clock, metrics), std::move(face),
-            config.touch.detector, calibration->model_name(), face_note, note});
+    return std::make_unique<Rig>(Rig{ActivePipeline(*calibration, std::move(detector), options, stream, clock, metrics),
+                                     std::move(face), config.touch.detector, calibration->model_name(), face_note,
+                                     note});
   } catch (const std::invalid_argument& problem) {
     return Error{fmt::format("{}: {}; calibrate again", path.string(), problem.what())};
   }

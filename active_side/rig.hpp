@@ -22,9 +22,9 @@ struct Rig {
 };
 
 // The error says what is wrong with the calibration, with the configuration for it, or with the face finder, and what
-// to do. `clock` and `metrics` outlive the rig. `versions_after`: body maps of earlier rigs had versions up to this
-// one.
-Result<std::unique_ptr<Rig>> make_rig(const ActiveConfig& config, const SessionId& session, const Clock& clock,
+// to do. `stream`, `clock` and `metrics` outlive the rig. `versions_after`: body maps of earlier rigs had versions up
+// to this one.
+Result<std::unique_ptr<Rig>> make_rig(const ActiveConfig& config, TouchStream& stream, const Clock& clock,
                                       MetricsRegistry& metrics, std::uint32_t versions_after);
 
 }  // namespace telehug

@@ -61,7 +61,7 @@ struct TouchEvent {
   std::uint64_t sequence = 0;      // 1, 2, ... within the session
   std::int64_t frame_time_ns = 0;  // when the camera took the frame
   std::int64_t sent_time_ns = 0;
-  std::uint32_t body_map_version = 0;
+  std::uint32_t body_map_version = 0;  // that contacts were read against; the largest number: the standard grid itself
   boost::container::static_vector<Contact, max_contacts>
       contacts;  // the whole state: what is not in it is not touching
   boost::container::static_vector<Transition, max_transitions> transitions;  // oldest first
@@ -136,6 +136,14 @@ struct PairRenewal {
   SessionId session;
   std::string certificate;  // PEM
   std::string permissions;  // S/MIME
+};
+
+// The wearer hugs back: seen and heard by the active side's person, felt by nobody.
+struct Hug {
+  SessionId session;
+  std::uint64_t sequence = 0;
+  std::int64_t sent_time_ns = 0;
+  double strength = 1;  // above 0, up to 1
 };
 
 }  // namespace telehug

@@ -8,6 +8,7 @@
 #include "daemon/connection.hpp"
 #include "daemon/renewal_link.hpp"
 #include "passive_pipeline.hpp"
+#include "peer_link/one_way.hpp"
 
 namespace telehug {
 
@@ -15,13 +16,21 @@ namespace telehug {
 class BesideAnswers {
  public:
   BesideAnswers(const std::optional<Pair>& pair, const SessionId& session, const Clock&) : renewal_(pair, session) {}
-  void connect(DdsParticipant& participant) { renewal_.connect(participant); }
-  void disconnect() { renewal_.disconnect(); }
+  void connect(DdsParticipant& participant) {
+    renewal_.connect(participant);
+    hugs_.connect(participant);
+  }
+  void disconnect() {
+    hugs_.disconnect();
+    renewal_.disconnect();
+  }
   void serve(WallTime now) { renewal_.serve(now); }
   [[nodiscard]] static std::uint64_t dropped() { return 0; }
+  [[nodiscard]] Outgoing<Hug>& hugs() noexcept { return hugs_; }
 
  private:
   RenewalSender renewal_;
+  Outgoing<Hug> hugs_;
 };
 
 // One of those who may touch this jacket: the connection to them, and what their touches become.

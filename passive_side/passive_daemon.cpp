@@ -37,6 +37,9 @@ PassiveDaemon::PassiveDaemon(const PassiveConfig& config, Memberships membership
       events_replaced_(metrics_.counter("events_replaced_by_newer")),
       events_unvouched_(metrics_.counter("events_without_heartbeat")),
       total_latency_(metrics_.latency("event_to_link")),
+      hug_back_(session_),
+      hugs_sent_(metrics_.counter("hugs_sent")),
+      hugs_too_soon_(metrics_.counter("hugs_too_soon")),
       senders_(PairsWatch(config.peer, Side::passive, clock),
                [this](Membership membership, const Senders::List& others) {
                  return connect(std::move(membership), others);

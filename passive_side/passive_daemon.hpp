@@ -17,6 +17,7 @@
 #include "connected_sender.hpp"
 #include "daemon/connections.hpp"
 #include "daemon/stop_switch.hpp"
+#include "hug_back.hpp"
 #include "jacket/jacket_profile.hpp"
 #include "passive_pipeline.hpp"
 #include "safety/safety_stage.hpp"
@@ -86,6 +87,7 @@ class PassiveDaemon {
   void tell_watchers();
   void keep_connections();
   void answer_commands();
+  nlohmann::json order_hug(const nlohmann::json& request);
   nlohmann::json status() const;
   [[nodiscard]] std::vector<ConnectionStatus> connections() const;
   nlohmann::json problems(const DriveThreadState& state, const std::vector<ConnectionStatus>& connections) const;
@@ -123,6 +125,10 @@ class PassiveDaemon {
 
   // Housekeeping
   SayOnChange say_jacket_;
+
+  HugBack hug_back_;  // the control thread's
+  Counter& hugs_sent_;
+  Counter& hugs_too_soon_;
 
   Senders senders_;
   std::unique_ptr<ControlServer> control_;

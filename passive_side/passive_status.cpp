@@ -40,6 +40,7 @@ const char* name_of(LinkState state) {
 
 void PassiveDaemon::answer_commands() {
   control_->on("status", [this](const Json&) { return status(); });
+  control_->on("hug", [this](const Json& request) { return order_hug(request); });
   stop_.serve(*control_);
 }
 

@@ -13,6 +13,19 @@ namespace {
 constexpr Duration between_tries = 1s;
 constexpr std::uint32_t touched_rgb = 0xE53935;
 constexpr std::uint32_t felt_rgb = 0x43A047;
+constexpr std::uint32_t hugged_rgb = 0xEC407A;
+
+std::uint32_t rgb_of(OverlayState state) {
+  switch (state) {
+    case OverlayState::touched:
+      return touched_rgb;
+    case OverlayState::felt:
+      return felt_rgb;
+    case OverlayState::hugged:
+      return hugged_rgb;
+  }
+  return touched_rgb;
+}
 
 }  // namespace
 
@@ -73,10 +86,9 @@ void X11Overlay::update() {
   const Status followed = window_->follow();
   last_error_ = followed ? "" : followed.error().message;
   if (followed && box_px_) {
-    const bool felt = state_ == OverlayState::felt;
+    const int width_px = state_ == OverlayState::touched ? config_.line_px : 2 * config_.line_px;
     const cv::Rect bounds({}, window_->monitor_px().size());
-    window_->show(make_outline(*box_px_, felt ? 2 * config_.line_px : config_.line_px, bounds),
-                  felt ? felt_rgb : touched_rgb, clock_.now());
+    window_->show(make_outline(*box_px_, width_px, bounds), rgb_of(state_), clock_.now());
   } else {
     window_->hide();
   }

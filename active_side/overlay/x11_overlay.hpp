@@ -16,6 +16,7 @@ namespace telehug {
 enum class OverlayState {
   touched,  // red
   felt,     // the other side has felt it: green, and twice as wide
+  hugged,   // the other side hugs back: pink, and as wide
 };
 
 struct X11OverlayConfig {
@@ -41,7 +42,7 @@ class X11Overlay {
   void show(const cv::Rect& box_px, OverlayState state);
   void hide();
 
-  // The px of the monitor that show() covers now, or would if the box were felt; empty while nothing is shown. A
+  // The px of the monitor that show() covers now, or would if it were felt; empty while nothing is shown. A
   // picture of the monitor doesn't show what is beneath.
   [[nodiscard]] std::vector<cv::Rect> areas() const;
 

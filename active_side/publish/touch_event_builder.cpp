@@ -5,13 +5,21 @@
 #include <utility>
 
 namespace telehug {
+namespace {
+
+template <typename Contacts>
+bool has(const Contacts& contacts, std::uint32_t id) {
+  return std::any_of(contacts.begin(), contacts.end(), [id](const auto& contact) { return contact.id == id; });
+}
+
+}  // namespace
 
 TouchEventBuilder::TouchEventBuilder(SessionId session) {
   event_.session = std::move(session);
 }
 
-const TouchEvent* TouchEventBuilder::build(const BoxedContacts& contacts, GridShape grid,
-                                           std::uint32_t body_map_version, Timestamp frame_time, Timestamp now) {
+const TouchEvent* TouchEventBuilder::build(const BoxedContacts& contacts, std::uint32_t body_map_version,
+                                           Timestamp frame_time, Timestamp now) {
   forget_old_transitions(frame_time);
   if (contacts.empty() && down_.empty() && pending_.empty()) return nullptr;
 
@@ -22,7 +30,7 @@ const TouchEvent* TouchEventBuilder::build(const BoxedContacts& contacts, GridSh
   event_.contacts.clear();
   end_vanished(contacts);
   for (const BoxedContact& contact : contacts)
-    add_contact(contact, grid);
+    add_contact(contact);
   event_.transitions.clear();
   for (Pending& pending : pending_) {
     event_.transitions.push_back(pending.transition);
@@ -31,9 +39,12 @@ const TouchEvent* TouchEventBuilder::build(const BoxedContacts& contacts, GridSh
   return &event_;
 }
 
-void TouchEventBuilder::withhold_downs() {
-  const auto down = [](const Pending& pending) { return pending.transition.contact.phase == Phase::down; };
-  pending_.erase(std::remove_if(pending_.begin(), pending_.end(), down), pending_.end());
+void TouchEventBuilder::withhold_downs_except(const BoxedContacts& contacts) {
+  const auto withheld = [&](const Pending& pending) {
+    const Contact& contact = pending.transition.contact;
+    return contact.phase == Phase::down && !has(contacts, contact.id);
+  };
+  pending_.erase(std::remove_if(pending_.begin(), pending_.end(), withheld), pending_.end());
 }
 
 void TouchEventBuilder::forget_old_transitions(Timestamp frame_time) {
@@ -44,17 +55,14 @@ void TouchEventBuilder::forget_old_transitions(Timestamp frame_time) {
 }
 
 void TouchEventBuilder::end_vanished(const BoxedContacts& contacts) {
-  const auto vanished = [&](const Contact& known) {
-    return std::none_of(contacts.begin(), contacts.end(),
-                        [&](const BoxedContact& contact) { return contact.id == known.id; });
-  };
+  const auto vanished = [&](const Contact& known) { return !has(contacts, known.id); };
   for (const Contact& known : down_) {
     if (vanished(known)) add_transition(known, Phase::up);
   }
   down_.erase(std::remove_if(down_.begin(), down_.end(), vanished), down_.end());
 }
 
-void TouchEventBuilder::add_contact(const BoxedContact& boxed, GridShape grid) {
+void TouchEventBuilder::add_contact(const BoxedContact& boxed) {
   const auto known =
       std::find_if(down_.begin(), down_.end(), [&](const Contact& contact) { return contact.id == boxed.id; });
   if (boxed.phase == Phase::up && known == down_.end()) return;
@@ -62,10 +70,11 @@ void TouchEventBuilder::add_contact(const BoxedContact& boxed, GridShape grid) {
   Contact contact{.id = boxed.id,
                   .phase = Phase::move,
                   .box = boxed.box,
-                  .grid = grid,
+                  .grid = boxed.grid,
                   .body = boxed.body,
                   .screen = boxed.screen,
                   .speed_mm_s = boxed.speed_mm_s,
+                  .strength = boxed.strength,
                   .gesture = boxed.gesture};
   if (boxed.phase == Phase::up) {
     contact.phase = Phase::up;

@@ -6,22 +6,9 @@
 
 #include "common/clock.hpp"
 #include "common/messages.hpp"
-#include "common/units.hpp"
+#include "publish/boxed_contact.hpp"
 
 namespace telehug {
-
-// One finger of one frame, with the place on the body that it touches.
-struct BoxedContact {
-  std::uint32_t id = 0;
-  Phase phase = Phase::down;
-  ScreenPoint screen;
-  double speed_mm_s = 0;
-  std::uint16_t box = 0;  // 1..columns*rows
-  BodyPoint body;
-  Gesture gesture = Gesture::none;
-};
-
-using BoxedContacts = boost::container::static_vector<BoxedContact, max_contacts>;
 
 // Turns each frame's contacts into the event that is sent for it. Events travel without resending, so each tells the
 // whole state again and repeats the downs and ups of the last frames: the loss of any few events in a row loses
@@ -39,16 +26,17 @@ class TouchEventBuilder {
   // session: as made by new_session_id().
   explicit TouchEventBuilder(SessionId session);
 
-  // contacts: all of this frame, ids unique. grid and body_map_version: of
-  // the map that the boxes refer to; ignored if there are no contacts. frame_time: rises from call to call.
+  // contacts: all of this frame, ids unique. body_map_version: of the map that they were read against; not 0 if there
+  // are contacts. frame_time: rises from call to call.
   //
   // Null when there is nothing to say: no contact and no transition left to repeat. The event is valid until the next
   // call; sent_time_ns is `now`.
-  const TouchEvent* build(const BoxedContacts& contacts, GridShape grid, std::uint32_t body_map_version,
-                          Timestamp frame_time, Timestamp now);
+  const TouchEvent* build(const BoxedContacts& contacts, std::uint32_t body_map_version, Timestamp frame_time,
+                          Timestamp now);
 
-  // Repeats no begin of a touch any longer: what was stopped meanwhile is not felt by a jacket that starts just then.
-  void withhold_downs();
+  // Repeats no begin of a touch any longer, but of those in `contacts`: what was stopped meanwhile is not felt by a
+  // jacket that starts just then.
+  void withhold_downs_except(const BoxedContacts& contacts);
 
  private:
   struct Pending {
@@ -58,7 +46,7 @@ class TouchEventBuilder {
 
   void forget_old_transitions(Timestamp frame_time);
   void end_vanished(const BoxedContacts& contacts);
-  void add_contact(const BoxedContact& boxed, GridShape grid);
+  void add_contact(const BoxedContact& boxed);
   void add_transition(const Contact& contact, Phase phase);
 
   TouchEvent event_;

@@ -41,7 +41,7 @@ int PortalSession::handle(sd_bus_message* message, void* session, sd_bus_error* 
 
 PortalSession::PortalSession(const std::string& bus_address, std::string restore_token, const Clock& clock)
     : clock_(clock), token_(std::move(restore_token)), deadline_(clock.now() + longest_answer) {
-  auto bus = connect_to_bus(bus_address);
+  auto bus = connect_to_bus(bus_address, "to ask the desktop for its screen");
   if (bus) {
     bus_ = std::move(*bus);
   } else {

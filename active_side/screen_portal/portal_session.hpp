@@ -6,8 +6,8 @@
 #include <string>
 
 #include "common/clock.hpp"
-#include "screen_portal/bus_connection.hpp"
 #include "screen_portal/portal_messages.hpp"
+#include "session_bus/bus_connection.hpp"
 
 struct pollfd;
 

@@ -14,9 +14,9 @@ struct PeerConfig {
   int domain = 77;        // DDS domain
   std::string partition;  // DDS partition: pairs on one network that must not hear each other take different ones
   bool loopback_only = false;
-  std::string pairs;         // read it with parse_pairs(); see memberships()
-  std::string pairs_folder;  // see pairs_folder()
-  std::string addresses;     // read it with parse_addresses(); only if not loopback_only
+  std::string pairs;           // read it with parse_pairs(); see memberships()
+  std::string pairs_folder;    // see pairs_folder()
+  std::string addresses;       // read it with parse_addresses(); only if not loopback_only
   std::string public_address;  // IPv4, of the router that forwards UDP ports to this PC; empty: none does
   int public_port = 0;         // the first of two; 0 without public_address
 };
@@ -81,6 +81,10 @@ struct OverlayConfig {
   bool show = false;
 };
 
+struct HugConfig {
+  bool notify = true;
+};
+
 struct ActiveConfig {
   CameraConfig camera;
   RigConfig rig;
@@ -89,6 +93,7 @@ struct ActiveConfig {
   BodyMapConfig body_map;
   SendingConfig sending;
   OverlayConfig overlay;
+  HugConfig hug;
   PeerConfig peer;
   int heartbeat_timeout_ms = 250;  // [peer]
   ControlConfig control;

@@ -231,7 +231,15 @@ std::vector<Key> keys_of(ActiveConfig& c) {
        &c.overlay.show,
        "",
        {},
-       "true: the touched box is outlined on the screen (X11), in red, and in green once the other side has felt it."},
+       "true: the touched box is outlined on the screen (X11), in red, and in green once the other side has felt it; "
+       "the whole person in pink for a moment when they hug back."},
+
+      {"hug",
+       "notify",
+       &c.hug.notify,
+       "",
+       {},
+       "true: when the other side hugs back the desktop shows a notification, with a sound."},
   };
   append(rows, peer_rows(c.peer));
   append(rows, {{"peer", "heartbeat_timeout_ms", &c.heartbeat_timeout_ms, "ms", heartbeat_timeout,

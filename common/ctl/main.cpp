@@ -20,6 +20,7 @@ Examples:
   telehug resume
   telehug send off                    touches on this screen touch nobody
   telehug face next                   the other person in the picture is meant
+  telehug hug --seconds 4             felt by the wearer; from the wearer's PC seen and heard by the sender
   telehug pair invite                 make a pair of this PC and another one
 
 Exit codes: 0 ok, 1 fault of telehug, 2 wrong command line, 5 no daemon is running, 6 peer absent (--check),
@@ -38,6 +39,7 @@ ExitCode parse_and_run(int argc, char** argv) {
   telehug::add_resume(app, result);
   telehug::add_send(app, result);
   telehug::add_face(app, result);
+  telehug::add_hug(app, result);
   telehug::add_pair(app, result);
   telehug::add_version(app, result);
   try {

@@ -140,7 +140,8 @@ std::string latencies_text(const Json& stages) {
 }  // namespace
 
 std::string status_text(const Json& status) {
-  static constexpr std::array<const char*, 6> things{"camera", "screen", "face", "sending", "jacket", "last_touch"};
+  static constexpr std::array<const char*, 7> things{"camera", "screen",     "face",    "sending",
+                                                     "jacket", "last_touch", "last_hug"};
   static constexpr std::array<const char*, 9> placed{"side", "version", "uptime_s", "state",     "problems",
                                                      "peer", "peers",   "counters", "latency_ms"};
   std::string text = heading(status);

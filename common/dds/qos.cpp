@@ -185,6 +185,16 @@ void choose_delivery<PairRenewal>(dds::DataReaderQos& qos) {
   one_of_each_session(qos);
   one_at_a_time(qos);
 }
+// Not kept for whoever joins late: a hug is for the moment.
+template <>
+void choose_delivery<Hug>(dds::DataWriterQos& qos) {
+  reliable(qos, 1);
+}
+template <>
+void choose_delivery<Hug>(dds::DataReaderQos& qos) {
+  reliable(qos, 1);
+  one_of_each_session(qos);
+}
 
 }  // namespace
 
@@ -254,11 +264,13 @@ template dds::DataWriterQos writer_qos<Heartbeat>();
 template dds::DataWriterQos writer_qos<SideStatus>();
 template dds::DataWriterQos writer_qos<StopAll>();
 template dds::DataWriterQos writer_qos<PairRenewal>();
+template dds::DataWriterQos writer_qos<Hug>();
 template dds::DataReaderQos reader_qos<TouchEvent>();
 template dds::DataReaderQos reader_qos<Felt>();
 template dds::DataReaderQos reader_qos<Heartbeat>();
 template dds::DataReaderQos reader_qos<SideStatus>();
 template dds::DataReaderQos reader_qos<StopAll>();
 template dds::DataReaderQos reader_qos<PairRenewal>();
+template dds::DataReaderQos reader_qos<Hug>();
 
 }  // namespace telehug

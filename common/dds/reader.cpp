@@ -111,5 +111,6 @@ template class Reader<Heartbeat>;
 template class Reader<SideStatus>;
 template class Reader<StopAll>;
 template class Reader<PairRenewal>;
+template class Reader<Hug>;
 
 }  // namespace telehug

@@ -17,7 +17,7 @@ struct ReaderCounters {
   const char* last_fault = nullptr;  // what was wrong with the last invalid one; a literal; null: nothing yet
 };
 
-// Subscribes to T: TouchEvent, Felt, Heartbeat, SideStatus, StopAll or PairRenewal.
+// Subscribes to T: TouchEvent, Felt, Heartbeat, SideStatus, StopAll, PairRenewal or Hug.
 template <typename T>
 class Reader {
  public:
@@ -45,5 +45,6 @@ extern template class Reader<Heartbeat>;
 extern template class Reader<SideStatus>;
 extern template class Reader<StopAll>;
 extern template class Reader<PairRenewal>;
+extern template class Reader<Hug>;
 
 }  // namespace telehug

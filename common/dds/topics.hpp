@@ -49,6 +49,12 @@ struct Topic<PairRenewal> {
   using WireSupport = v1::PairRenewalPubSubType;
   static constexpr const char* name = "renewal";
 };
+template <>
+struct Topic<Hug> {
+  using Wire = v1::Hug;
+  using WireSupport = v1::HugPubSubType;
+  static constexpr const char* name = "hug";
+};
 
 // Topics are named after the side that writes them, so that a side does not hear itself and permissions can tell the
 // directions apart: "telehug/v1/active/heartbeat".

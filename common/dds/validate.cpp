@@ -148,4 +148,12 @@ Fault validate(const PairRenewal& renewal) noexcept {
   return nullptr;
 }
 
+Fault validate(const Hug& hug) noexcept {
+  if (!is_session_id(hug.session)) return "the session is not 32 hexadecimal digits";
+  if (hug.sequence < 1) return "the sequence number is 0";
+  if (hug.sent_time_ns < 0) return "a time is negative";
+  if (!(hug.strength > 0) || hug.strength > 1) return "the strength is not above 0 and up to 1";
+  return nullptr;
+}
+
 }  // namespace telehug

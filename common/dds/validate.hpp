@@ -22,5 +22,6 @@ using Fault = const char*;
 [[nodiscard]] Fault validate(const SideStatus& status) noexcept;
 [[nodiscard]] Fault validate(const StopAll& stop) noexcept;
 [[nodiscard]] Fault validate(const PairRenewal& renewal) noexcept;
+[[nodiscard]] Fault validate(const Hug& hug) noexcept;
 
 }  // namespace telehug

@@ -230,4 +230,19 @@ Fault from_wire(const v1::PairRenewal& wire, PairRenewal& renewal) {
   return validate(renewal);
 }
 
+void to_wire(const Hug& hug, v1::Hug& wire) {
+  wire.session(session_bytes(hug.session));
+  wire.sequence_number(hug.sequence);
+  wire.sent_time_ns(hug.sent_time_ns);
+  wire.strength(hug.strength);
+}
+
+Fault from_wire(const v1::Hug& wire, Hug& hug) {
+  read_session(wire.session(), hug.session);
+  hug.sequence = wire.sequence_number();
+  hug.sent_time_ns = wire.sent_time_ns();
+  hug.strength = wire.strength();
+  return validate(hug);
+}
+
 }  // namespace telehug

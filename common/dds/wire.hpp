@@ -18,6 +18,7 @@ void to_wire(const Heartbeat& heartbeat, v1::Heartbeat& wire);
 void to_wire(const SideStatus& status, v1::SideStatus& wire);
 void to_wire(const StopAll& stop, v1::StopAll& wire);
 void to_wire(const PairRenewal& renewal, v1::PairRenewal& wire);
+void to_wire(const Hug& hug, v1::Hug& wire);
 
 // Checks the bounds and ends with validate(). The message is usable only if the answer is null.
 [[nodiscard]] Fault from_wire(const v1::TouchEvent& wire, TouchEvent& event);
@@ -26,5 +27,6 @@ void to_wire(const PairRenewal& renewal, v1::PairRenewal& wire);
 [[nodiscard]] Fault from_wire(const v1::SideStatus& wire, SideStatus& status);
 [[nodiscard]] Fault from_wire(const v1::StopAll& wire, StopAll& stop);
 [[nodiscard]] Fault from_wire(const v1::PairRenewal& wire, PairRenewal& renewal);
+[[nodiscard]] Fault from_wire(const v1::Hug& wire, Hug& hug);
 
 }  // namespace telehug

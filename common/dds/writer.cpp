@@ -63,5 +63,6 @@ template class Writer<Heartbeat>;
 template class Writer<SideStatus>;
 template class Writer<StopAll>;
 template class Writer<PairRenewal>;
+template class Writer<Hug>;
 
 }  // namespace telehug

@@ -8,7 +8,7 @@
 
 namespace telehug {
 
-// Publishes T: TouchEvent, Felt, Heartbeat, SideStatus, StopAll or PairRenewal (topics and QoS: idl/README.md).
+// Publishes T: TouchEvent, Felt, Heartbeat, SideStatus, StopAll, PairRenewal or Hug (topics and QoS: idl/README.md).
 template <typename T>
 class Writer {
  public:
@@ -37,5 +37,6 @@ extern template class Writer<Heartbeat>;
 extern template class Writer<SideStatus>;
 extern template class Writer<StopAll>;
 extern template class Writer<PairRenewal>;
+extern template class Writer<Hug>;
 
 }  // namespace telehug

@@ -74,7 +74,7 @@ std::string governance() {
 
 std::string permissions(Side side, const std::string& subject, const std::string& partition, const Validity& validity) {
   const std::string of_active = topics("active", {"touch", "heartbeat", "status", "stop"});
-  const std::string of_passive = topics("passive", {"felt", "heartbeat", "renewal", "status", "stop"});
+  const std::string of_passive = topics("passive", {"felt", "hug", "heartbeat", "renewal", "status", "stop"});
   const bool active = side == Side::active;
   return fmt::format(R"(<?xml version="1.0" encoding="UTF-8"?>
 <dds>

@@ -70,6 +70,10 @@ inline SideStatus example_status() {
           .reason = "the camera \u00bbC920\u00ab is unplugged"};
 }
 
+inline Hug example_hug() {
+  return {.session = other_session, .sequence = 3, .sent_time_ns = 77, .strength = 0.5};
+}
+
 inline StopAll example_stop() {
   return {
       .session = example_session, .side = Side::active, .sequence = 2, .stop = true, .reason = "the wearer's button"};

@@ -34,7 +34,7 @@ void receive(std::span<const std::uint8_t> bytes) {
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   if (size == 0) return 0;
   const std::span<const std::uint8_t> payload(data + 1, size - 1);
-  switch (data[0] % 6) {
+  switch (data[0] % 7) {
     case 0:
       telehug::receive<telehug::TouchEvent>(payload);
       break;
@@ -50,8 +50,11 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     case 4:
       telehug::receive<telehug::StopAll>(payload);
       break;
-    default:
+    case 5:
       telehug::receive<telehug::PairRenewal>(payload);
+      break;
+    default:
+      telehug::receive<telehug::Hug>(payload);
       break;
   }
   return 0;

@@ -33,3 +33,6 @@ telehug_test(test_app_chat_on_screen KIND integration SUBJECT face
   SOURCES integration/app/chat_on_screen_test.cpp DEPS running_pair telehug_pictures opencv::imgproc PkgConfig::xcb PkgConfig::xtest)
 telehug_test(test_app_look KIND integration SUBJECT face
   SOURCES integration/app/look_test.cpp DEPS running_pair)
+telehug_test(test_app_hug KIND integration SUBJECT jacket
+  SOURCES integration/app/hug_test.cpp DEPS running_pair PkgConfig::sdbus)
+set_tests_properties(test_app_hug PROPERTIES RUN_SERIAL TRUE)  # as test_app_silence

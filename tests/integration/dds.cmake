@@ -37,5 +37,5 @@ telehug_test(test_address_watcher KIND integration SUBJECT link
   DEPS telehug_network)
 
 telehug_test(test_replaced_participant KIND integration SUBJECT link
-  SOURCES integration/dds/replaced_participant_test.cpp
+  SOURCES integration/dds/one_way_test.cpp integration/dds/replaced_participant_test.cpp
   DEPS telehug_peer_link)

@@ -10,3 +10,6 @@ telehug_test(test_portal_grabber KIND integration SUBJECT face
 # PipeWire's macros cast in C's way.
 set_source_files_properties(doubles/drawn_screen.cpp TARGET_DIRECTORY test_portal_grabber PROPERTIES
   COMPILE_OPTIONS -Wno-old-style-cast)
+telehug_test(test_notifications KIND integration SUBJECT ops
+  SOURCES integration/notify/desktop_notifier_test.cpp
+  DEPS active_notify PkgConfig::sdbus)

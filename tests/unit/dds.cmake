@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 telehug_test(test_peer KIND unit SUBJECT link
-  SOURCES unit/peer/heartbeat_test.cpp unit/peer/session_test.cpp
+  SOURCES unit/peer/heard_hugs_test.cpp unit/peer/heartbeat_test.cpp unit/peer/session_test.cpp
   DEPS telehug_peer)
 
 telehug_test(test_link_supervisor KIND unit SUBJECT link
@@ -16,8 +16,9 @@ telehug_test(test_ways_in KIND unit SUBJECT link
   DEPS telehug_network)
 
 telehug_test(test_publish KIND unit SUBJECT link
-  SOURCES unit/publish/touch_event_builder_test.cpp doubles/allocation_counter.cpp
-  DEPS active_publish)
+  SOURCES unit/publish/hug_player_test.cpp unit/publish/touch_event_builder_test.cpp unit/publish/touch_stream_test.cpp
+    doubles/allocation_counter.cpp
+  DEPS active_publish telehug_dds)
 
 telehug_test(test_subscribe KIND unit SUBJECT link
   SOURCES unit/subscribe/lossy_way_test.cpp unit/subscribe/sender_turn_test.cpp unit/subscribe/staleness_test.cpp unit/subscribe/touch_order_test.cpp
@@ -45,5 +46,5 @@ telehug_test(test_qr_code KIND unit SUBJECT link
   DEPS telehug_pairing_link PkgConfig::zxing)
 
 telehug_test(test_membership KIND unit SUBJECT link
-  SOURCES unit/daemon/connections_test.cpp unit/daemon/membership_test.cpp
+  SOURCES unit/daemon/connections_test.cpp unit/daemon/hug_request_test.cpp unit/daemon/membership_test.cpp
   DEPS telehug_daemon)

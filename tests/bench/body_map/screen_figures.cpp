@@ -103,7 +103,7 @@ Figures measure_touch_beside_face() {
       const ContactStates& contacts = tracker.update(touched.fingers, time);
       BodyMap newest;
       worker.update(newest);
-      builder.build(boxes_under(contacts, map, Duration::max(), time, nobody), map.shape, map.version, time, time);
+      builder.build(boxes_under(contacts, map, Duration::max(), time, nobody), map.version, time, time);
       const double ms = watch.lap_ms();
       if (second >= 0) (face ? beside : alone).samples.push_back(ms);
       std::this_thread::sleep_until(next);

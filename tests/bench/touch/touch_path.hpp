@@ -67,7 +67,7 @@ Figures measure_path(Detector& detector, const TouchedRig& rig, const std::strin
     const ContactStates& contacts = tracker.update(touched.fingers, time);
     const double track_ms = watch.lap_ms();
     const BoxedContacts boxed = boxes_under(contacts, map, Duration::max(), time, nobody);
-    builder.build(boxed, map.shape, map.version, time, time);
+    builder.build(boxed, map.version, time, time);
     const double event_ms = watch.lap_ms();
     if (i < bench_warm_up_rounds) continue;
     const auto allocations = static_cast<double>(allocation_count() - allocated);

@@ -207,6 +207,21 @@ TEST_F(ChatOnScreen, OutlinesTheTouchedBoxOnceItIsFeltAndIsNoWindowInFrontItself
   EXPECT_TRUE(eventually([&] { return outlined_px() == 0; })) << pair.logs();
 }
 
+TEST_F(ChatOnScreen, OutlinesThePersonForAMomentWhenTheyHugBack) {
+  X11Client onlooker(xvfb.display());
+  const Chat chat(xvfb.display());
+  pin_the_chat();
+  pair.active_settings.insert(pair.active_settings.end(), {"overlay.show=true", "hug.notify=false"});
+  start_all();
+  ASSERT_TRUE(becomes_felt()) << pair.logs();
+  constexpr int pink = 0xEC407A;
+  const auto outlined_px = [&] { return cv::countNonZero(onlooker.screenshot(screen_px) == pink); };
+  ASSERT_EQ(outlined_px(), 0);
+  ASSERT_TRUE(eventually([&] { return pair.telehug("hug", Side::passive).code == 0; })) << pair.logs();
+  EXPECT_TRUE(eventually([&] { return outlined_px() > 1000; }, 2s)) << pair.logs();
+  EXPECT_TRUE(eventually([&] { return outlined_px() == 0; })) << pair.logs();
+}
+
 TEST_F(ChatOnScreen, IsSwitchedOffAndOnByTheHotkey) {
   X11Typist typist(xvfb.display());
   const Chat chat(xvfb.display());

@@ -53,6 +53,21 @@ TEST_F(Recovery, AnActiveSideThatIsStartedAgainIsFeltAgain) {
   EXPECT_TRUE(pair.passive->runs());
 }
 
+TEST_F(Recovery, AFingerIsFeltOnAfterANewCalibration) {
+  ASSERT_TRUE(pair.start_all()) << pair.logs();
+  ASSERT_TRUE(eventually([&] { return pair.counter(Side::passive, "events_accepted") > 60; })) << pair.logs();
+  const std::uint32_t before = pair.status(Side::active).at("face").at("map_version");
+  pair.calibrate("replay:" TELEHUG_FIXTURES "/rig2");
+  ASSERT_TRUE(eventually([&] {
+    return pair.status(Side::active).at("face").at("map_version").get<std::uint32_t>() > before + 1000;
+  })) << "it is not in use"
+      << pair.logs();
+  const std::uint64_t accepted = pair.counter(Side::passive, "events_accepted");
+  EXPECT_TRUE(eventually([&] { return pair.felt() && pair.counter(Side::passive, "events_accepted") > accepted + 10; }))
+      << pair.logs();
+  EXPECT_EQ(pair.counter(Side::passive, "events_doubled"), 0U);
+}
+
 TEST_F(Recovery, ASideWhosePeerFellSilentSetsUpItsConnectionAnewAndKeepsToTheStop) {
   ASSERT_TRUE(pair.start_all()) << pair.logs();
   ASSERT_EQ(pair.telehug("stop", Side::active).code, 0);

@@ -58,6 +58,10 @@ class TelehugCommand : public testing::Test {
       reason_ = request.value("reason", "");
       return {{"side", side_name(side)}};
     });
+    server->on("hug", [this, side](const Json& request) -> Json {
+      hug_ = request;
+      return {{"side", side_name(side)}};
+    });
     server->on("resume", [](const Json&) -> Json { return {{"error", "the other side has stopped"}}; });
     server->start();
     return server;
@@ -66,6 +70,7 @@ class TelehugCommand : public testing::Test {
   TemporaryFolder folder_;
   std::filesystem::path runtime_ = folder_.path() / "run";
   std::string reason_;
+  Json hug_;
 };
 
 TEST_F(TelehugCommand, PrintsItsVersion) {
@@ -81,7 +86,8 @@ TEST_F(TelehugCommand, HelpsWithExamples) {
 }
 
 TEST_F(TelehugCommand, RefusesACommandLineItDoesNotUnderstand) {
-  for (const char* wrong : {"", "dance", "status --loud", "status --side left", "watch --count 0"}) {
+  for (const char* wrong : {"", "dance", "status --loud", "status --side left", "watch --count 0", "hug --seconds 11",
+                            "hug --seconds 0.1", "hug --strength 0", "hug --strength 1.5"}) {
     const Outcome outcome = run(wrong);
     EXPECT_EQ(outcome.code, to_int(ExitCode::usage)) << wrong;
     EXPECT_FALSE(outcome.errors.empty()) << wrong;
@@ -90,7 +96,7 @@ TEST_F(TelehugCommand, RefusesACommandLineItDoesNotUnderstand) {
 
 TEST_F(TelehugCommand, SaysSoWhenNoDaemonRuns) {
   const std::string nowhere = "--socket " + (folder_.path() / "no.sock").string();
-  for (const char* command : {"status ", "watch ", "stop ", "resume "}) {
+  for (const char* command : {"status ", "watch ", "stop ", "resume ", "hug "}) {
     const Outcome outcome = run(command + nowhere);
     EXPECT_EQ(outcome.code, to_int(ExitCode::not_running)) << command;
     EXPECT_THAT(outcome.errors, HasSubstr("no telehug daemon answers on")) << command;
@@ -155,6 +161,29 @@ TEST_F(TelehugCommand, PassesTheReasonOfAStopOn) {
   EXPECT_EQ(outcome.code, to_int(ExitCode::ok));
   EXPECT_EQ(outcome.out, "active: stopped\n");
   EXPECT_EQ(reason_, "bed time");
+}
+
+TEST_F(TelehugCommand, HugsTheOtherSideOfTheDaemonThatRunsHere) {
+  {
+    const auto passive = daemon(Side::passive, Json::object());
+    const Outcome outcome = run("hug");
+    EXPECT_EQ(outcome.code, to_int(ExitCode::ok)) << outcome.errors;
+    EXPECT_EQ(outcome.out, "passive: hug\n");
+    EXPECT_EQ(hug_, Json({{"command", "hug"}}));
+  }
+  const auto active = daemon(Side::active, Json::object());
+  EXPECT_EQ(run("hug --seconds 4 --strength 0.5").out, "active: hug\n");
+  EXPECT_EQ(hug_, Json({{"command", "hug"}, {"seconds", 4.0}, {"strength", 0.5}}));
+}
+
+TEST_F(TelehugCommand, AsksWhichWayAHugGoesWhereBothSidesRun) {
+  const auto active = daemon(Side::active, Json::object());
+  const auto passive = daemon(Side::passive, Json::object());
+  const Outcome outcome = run("hug");
+  EXPECT_EQ(outcome.code, to_int(ExitCode::usage));
+  EXPECT_THAT(outcome.errors, HasSubstr("--side active hugs the wearer, --side passive hugs back"));
+  EXPECT_TRUE(hug_.is_null());
+  EXPECT_EQ(run("hug --side passive").out, "passive: hug\n");
 }
 
 TEST_F(TelehugCommand, TellsWhyADaemonRefuses) {

@@ -96,6 +96,24 @@ TEST_F(DdsOnLoopback, EveryFeltArrivesInOrder) {
     EXPECT_EQ(received.touch_sequence, expected++);
 }
 
+TEST_F(DdsOnLoopback, AHugReachesWhoIsThereAndNobodyWhoJoinsLater) {
+  Inbox<Hug> inbox;
+  const Reader<Hug> reader(active, inbox.callback());
+  Writer<Hug> writer(passive);
+  ASSERT_TRUE(eventually_matched(writer));
+  Hug hug = example_hug();
+  ASSERT_TRUE(writer.write(hug));
+  ASSERT_TRUE(inbox.wait_for(1));
+  EXPECT_EQ(inbox.messages().front().sequence, hug.sequence);
+  EXPECT_EQ(inbox.messages().front().strength, hug.strength);
+
+  Inbox<Hug> late;
+  const Reader<Hug> late_reader(active, late.callback());
+  ++hug.sequence;
+  ASSERT_TRUE(write_until_heard(writer, hug, late));
+  EXPECT_EQ(late.messages().front().sequence, hug.sequence);
+}
+
 TEST_F(DdsOnLoopback, ASideThatJoinsLateLearnsTheOthersStatusAndStop) {
   Writer<SideStatus> status_writer(active);
   Writer<StopAll> stop_writer(active);
@@ -162,6 +180,7 @@ TEST_F(DdsOnLoopback, ASenderMayCrashAndRestartMoreOftenThanFastDdsHasInstancesB
   EXPECT_TRUE(every_restart_is_heard(example_heartbeat()));
   EXPECT_TRUE(every_restart_is_heard(example_status()));
   EXPECT_TRUE(every_restart_is_heard(example_stop()));
+  EXPECT_TRUE(every_restart_is_heard(example_hug()));
 }
 
 TEST_F(DdsOnLoopback, AnotherPartitionHearsNothing) {

@@ -26,6 +26,7 @@ using testing::HasSubstr;
 
 constexpr std::uint32_t red = 0xE53935;
 constexpr std::uint32_t green = 0x43A047;
+constexpr std::uint32_t pink = 0xEC407A;
 const cv::Rect screen_px(0, 0, 800, 600);
 
 class X11OverlayTest : public testing::Test {
@@ -81,6 +82,8 @@ TEST_F(X11OverlayTest, OutlinesTheBoxAndNothingElse) {
   EXPECT_TRUE(shows({}, red));
   overlay.show(box, OverlayState::felt);
   EXPECT_TRUE(shows(make_outline(box, 6, screen_px), green));
+  overlay.show(box, OverlayState::hugged);
+  EXPECT_TRUE(shows(make_outline(box, 6, screen_px), pink));
   overlay.close();
   EXPECT_TRUE(shows({}, red));
   EXPECT_EQ(overlay.last_error(), "");

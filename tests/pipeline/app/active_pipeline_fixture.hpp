@@ -85,6 +85,7 @@ class ActivePipelineTest : public testing::Test {
 
   FakeClock clock;
   MetricsRegistry metrics;
+  TouchStream stream{example_session};
   BodyMap map;
   Frame frame;
   static ActivePipelineOptions options() {
@@ -93,7 +94,7 @@ class ActivePipelineTest : public testing::Test {
     return options;
   }
   ActivePipeline pipeline_with(AnyDetector detector, const Calibration& rig = calibration()) {
-    return {rig, std::move(detector), options(), example_session, clock, metrics};
+    return {rig, std::move(detector), options(), stream, clock, metrics};
   }
   ActivePipeline pipeline = pipeline_with(detector_of(calibration(), "default", nobody()));
 };

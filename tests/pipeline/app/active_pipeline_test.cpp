@@ -201,7 +201,7 @@ TEST_F(ActivePipelineTest, EndsATouchAndBeginsNoneWhileThePicturesCantBeBelieved
 
 TEST_F(ActivePipelineTest, EndsATouchOfACameraThatHangs) {
   ActivePipeline hanging(calibration(), detector_of(calibration(), "default", nobody()), ActivePipelineOptions{},
-                         example_session, clock, metrics);
+                         stream, clock, metrics);
   const TouchEvent* event = nullptr;
   for (int i = 0; i < 22; ++i) {
     clock.advance(frame_period);
@@ -236,6 +236,35 @@ TEST_F(ActivePipelineTest, LetsTimeRiseWhenAPictureIsOlderThanTheLastMiss) {
   const TouchEvent* event = pipeline.process(frame, map, true);
   ASSERT_NE(event, nullptr);
   EXPECT_GT(event->frame_time_ns, before_ns);
+}
+
+TEST_F(ActivePipelineTest, SendsAHugBesideTheFingerAndAloneWhileItIsNotSending) {
+  see(touching());
+  stream.hug().begin({}, clock.now());
+  const TouchEvent* event = see(touching());
+  ASSERT_NE(event, nullptr);
+  EXPECT_EQ(event->contacts.size(), 1 + HugPlayer::contacts_a_hug);
+  EXPECT_EQ(event->body_map_version, 7U);
+  event = see(touching(), false);
+  ASSERT_NE(event, nullptr);
+  EXPECT_EQ(event->contacts.size(), HugPlayer::contacts_a_hug);
+  map = {};
+  event = miss();
+  ASSERT_NE(event, nullptr);
+  EXPECT_EQ(event->contacts.size(), HugPlayer::contacts_a_hug);
+  EXPECT_EQ(event->body_map_version, no_face_version);
+}
+
+// The receiver would take what begins at 1 again, in one session, for doubled.
+TEST_F(ActivePipelineTest, CountsOnAfterTheCalibrationWasChanged) {
+  see(touching());
+  const TouchEvent* event = see(touching());
+  ASSERT_NE(event, nullptr);
+  const std::uint64_t before = event->sequence;
+  ActivePipeline recalibrated = pipeline_with(detector_of(calibration(), "default", nobody()));
+  event = see_with(recalibrated, touching());
+  ASSERT_NE(event, nullptr);
+  EXPECT_EQ(event->sequence, before + 1);
 }
 
 TEST_F(ActivePipelineTest, AllocatesNothingPerFrameAfterTheFirst) {

@@ -7,6 +7,7 @@
 #include <fstream>
 #include <iterator>
 #include <random>
+#include <string>
 #include <vector>
 
 #include "dds/guarded_type.hpp"
@@ -62,6 +63,7 @@ TEST(APayload, HasTheBytesThatTheFuzzersCorpusKeeps) {
   EXPECT_EQ(encoded(example_status()), kept("status"));
   EXPECT_EQ(encoded(example_stop()), kept("stop"));
   EXPECT_EQ(encoded(example_renewal()), kept("renewal"));
+  EXPECT_EQ(encoded(example_hug()), kept("hug"));
 }
 
 TEST(APayload, ThatEndsTooEarlyIsNotIntact) {
@@ -122,6 +124,7 @@ TEST(APayload, OfAnyBytesHarmsNothing) {
   feed_any_bytes(example_status(), 4);
   feed_any_bytes(example_stop(), 5);
   feed_any_bytes(example_renewal(), 6);
+  feed_any_bytes(example_hug(), 7);
 }
 
 }  // namespace

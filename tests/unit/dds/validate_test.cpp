@@ -87,18 +87,19 @@ TEST(ATouchEvent, WithoutContactsNeedsNoBodyMap) {
 }
 
 TEST(AFelt, IsRefusedWithTheReason) {
-  expect_faults<Felt>(example_felt(),
-                      {
-                          {"a session is not 32 hexadecimal digits", [](auto& felt) { felt.session = "me"; }},
-                          {"a session is not 32 hexadecimal digits", [](auto& felt) { felt.touch_session.clear(); }},
-                          {"the sequence number is 0", [](auto& felt) { felt.touch_sequence = 0; }},
-                          {"the phase is unknown", [](auto& felt) { felt.phase = Phase{255}; }},
-                          {"the outcome is unknown", [](auto& felt) { felt.outcome = FeltOutcome{felt_outcome_count}; }},
-                          {"the box is impossible", [](auto& felt) { felt.box = 0; }},
-                          {"the box is impossible", [](auto& felt) { felt.box = 10'001; }},
-                          {"a time is negative", [](auto& felt) { felt.received_time_ns = -1; }},
-                          {"a time is negative", [](auto& felt) { felt.driven_time_ns = -1; }},
-                      });
+  expect_faults<Felt>(
+      example_felt(),
+      {
+          {"a session is not 32 hexadecimal digits", [](auto& felt) { felt.session = "me"; }},
+          {"a session is not 32 hexadecimal digits", [](auto& felt) { felt.touch_session.clear(); }},
+          {"the sequence number is 0", [](auto& felt) { felt.touch_sequence = 0; }},
+          {"the phase is unknown", [](auto& felt) { felt.phase = Phase{255}; }},
+          {"the outcome is unknown", [](auto& felt) { felt.outcome = FeltOutcome{felt_outcome_count}; }},
+          {"the box is impossible", [](auto& felt) { felt.box = 0; }},
+          {"the box is impossible", [](auto& felt) { felt.box = 10'001; }},
+          {"a time is negative", [](auto& felt) { felt.received_time_ns = -1; }},
+          {"a time is negative", [](auto& felt) { felt.driven_time_ns = -1; }},
+      });
 }
 
 TEST(AHeartbeat, IsRefusedWithTheReason) {
@@ -160,6 +161,20 @@ TEST(ARenewal, IsRefusedWithTheReason) {
           {no_text, [](auto& renewal) { renewal.permissions += "caf\xc3\xa9"; }},
           {no_text, [](auto& renewal) { renewal.permissions += "\x7f"; }},
       });
+}
+
+TEST(AHug, IsRefusedWithTheReason) {
+  constexpr const char* strength = "the strength is not above 0 and up to 1";
+  expect_faults<Hug>(example_hug(),
+                     {
+                         {"the session is not 32 hexadecimal digits", [](auto& hug) { hug.session.clear(); }},
+                         {"the sequence number is 0", [](auto& hug) { hug.sequence = 0; }},
+                         {"a time is negative", [](auto& hug) { hug.sent_time_ns = -1; }},
+                         {strength, [](auto& hug) { hug.strength = 0; }},
+                         {strength, [](auto& hug) { hug.strength = 1.01; }},
+                         {strength, [](auto& hug) { hug.strength = nan_value; }},
+                         {strength, [](auto& hug) { hug.strength = infinite; }},
+                     });
 }
 
 }  // namespace

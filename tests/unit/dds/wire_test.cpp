@@ -113,6 +113,15 @@ TEST(TheWireForm, KeepsEveryFieldOfARenewal) {
   }
 }
 
+TEST(TheWireForm, KeepsEveryFieldOfAHug) {
+  const Hug hug = example_hug();
+  const Hug back = there_and_back(hug, v1::Hug());
+  EXPECT_EQ(back.session, hug.session);
+  EXPECT_EQ(back.sequence, hug.sequence);
+  EXPECT_EQ(back.sent_time_ns, hug.sent_time_ns);
+  EXPECT_EQ(back.strength, hug.strength);
+}
+
 TEST(TheWireForm, LeavesNothingOfALongerTextBehindAShorterOne) {
   SideStatus status = example_status();
   v1::SideStatus wire;

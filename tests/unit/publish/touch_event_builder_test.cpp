@@ -17,6 +17,7 @@ BoxedContact boxed(std::uint32_t id, Phase phase, std::uint16_t box = 7) {
           .phase = phase,
           .screen = {.x_mm = 10, .y_mm = 20},
           .speed_mm_s = 3,
+          .grid = grid,
           .box = box,
           .body = {.x_fh = 0.5, .y_fh = 1}};
 }
@@ -26,7 +27,7 @@ class TouchEvents : public testing::Test {
   // One frame, 33 ms after the one before.
   const TouchEvent* frame(const BoxedContacts& contacts) {
     clock.advance(33ms);
-    return builder.build(contacts, grid, 4, clock.now(), clock.now() + 5ms);
+    return builder.build(contacts, 4, clock.now(), clock.now() + 5ms);
   }
 
   FakeClock clock;
@@ -164,6 +165,17 @@ TEST_F(TouchEvents, TakeARepeatedDownForAMove) {
   const TouchEvent* event = frame({boxed(1, Phase::down)});
   EXPECT_EQ(event->contacts[0].phase, Phase::move);
   EXPECT_EQ(event->transitions.size(), 1U);
+}
+
+TEST_F(TouchEvents, RepeatNoWithheldBeginButThoseThatGoOn) {
+  frame({boxed(1, Phase::down), boxed(2, Phase::down)});
+  builder.withhold_downs_except({boxed(2, Phase::move)});
+  const TouchEvent* event = frame({boxed(2, Phase::move)});
+  ASSERT_EQ(event->transitions.size(), 2U);
+  EXPECT_EQ(event->transitions[0].contact.id, 2U);
+  EXPECT_EQ(event->transitions[0].contact.phase, Phase::down);
+  EXPECT_EQ(event->transitions[1].contact.id, 1U);
+  EXPECT_EQ(event->transitions[1].contact.phase, Phase::up);
 }
 
 TEST_F(TouchEvents, AreBuiltWithoutAllocating) {

@@ -50,7 +50,7 @@ class Fingers {
     int frames = 0;
   };
   static BoxedContact boxed(std::uint32_t id, Phase phase) {
-    return {.id = id, .phase = phase, .screen = {}, .speed_mm_s = 0, .box = 7, .body = {}};
+    return {.id = id, .phase = phase, .screen = {}, .speed_mm_s = 0, .grid = {5, 4}, .box = 7, .body = {}};
   }
 
   std::mt19937& random_;
@@ -76,8 +76,7 @@ class LossyWay : public testing::TestWithParam<unsigned> {
     for (int frame = 0; frame < frames + quiet_frames; ++frame) {
       const std::int64_t now_ms = 1000 + 33 * frame;
       const Timestamp now = from_ns(now_ms * 1'000'000);
-      const TouchEvent* event =
-          builder.build(fingers.next_frame(frame < frames), {.columns = 5, .rows = 4}, 1, now, now);
+      const TouchEvent* event = builder.build(fingers.next_frame(frame < frames), 1, now, now);
       if (event != nullptr && !lose(event->sequence)) {
         const int copies = random() % 5 == 0 ? 2 : 1;
         for (int copy = 0; copy < copies; ++copy) {

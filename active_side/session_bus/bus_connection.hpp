@@ -7,6 +7,7 @@
 
 #include <memory>
 #include <string>
+#include <string_view>
 
 #include "common/result.hpp"
 
@@ -27,7 +28,7 @@ using BusMessage = std::unique_ptr<sd_bus_message, BusMessageReleaser>;
 using BusSlot = std::unique_ptr<sd_bus_slot, BusSlotReleaser>;  // its end ends the match or the wait for a reply
 
 // Starts to connect and does not wait for it: what is sent meanwhile waits for the bus. `address` empty: the session
-// bus.
-Result<Bus> connect_to_bus(const std::string& address);
+// bus. `purpose`: of the error's sentence, "to ask the desktop for its screen".
+Result<Bus> connect_to_bus(const std::string& address, std::string_view purpose);
 
 }  // namespace telehug

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "screen_portal/bus_connection.hpp"
+#include "session_bus/bus_connection.hpp"
 
 #include <fmt/format.h>
 
@@ -8,7 +8,7 @@
 
 namespace telehug {
 
-Result<Bus> connect_to_bus(const std::string& address) {
+Result<Bus> connect_to_bus(const std::string& address, std::string_view purpose) {
   sd_bus* made = nullptr;
   int code = address.empty() ? sd_bus_open_user(&made) : sd_bus_new(&made);
   Bus bus(made);
@@ -18,10 +18,8 @@ Result<Bus> connect_to_bus(const std::string& address) {
     if (code >= 0) code = sd_bus_start(made);
   }
   if (code >= 0) return Result<Bus>(std::move(bus));
-  return Error{
-      fmt::format("There is no session bus to ask the desktop for its screen ({}); run telehug in the user's "
-                  "graphical session.",
-                  std::strerror(-code))};
+  return Error{fmt::format("There is no session bus {} ({}); run telehug in the user's graphical session.", purpose,
+                           std::strerror(-code))};
 }
 
 }  // namespace telehug
