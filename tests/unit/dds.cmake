@@ -38,3 +38,7 @@ telehug_test(test_pairing_link KIND unit SUBJECT link
 telehug_test(test_membership KIND unit SUBJECT link
   SOURCES unit/daemon/membership_test.cpp
   DEPS telehug_daemon)
+
+telehug_test(test_link_figures KIND unit SUBJECT link
+  SOURCES unit/bench/link_figures_test.cpp bench/homes/link_figures.cpp
+  DEPS active_publish)
