@@ -9,6 +9,7 @@
 
 #include <CLI/CLI.hpp>
 #include <array>
+#include <cstdio>
 #include <fstream>
 #include <system_error>
 
@@ -103,25 +104,27 @@ int run(const Options& options) {
 
 int main(int argc, char** argv) {
   Options options;
-  CLI::App app("Compares telehug's secured touches with MQTT over TLS and raw UDP");
-  app.add_option("--rounds", options.rounds, "exchanges of each way in each network")->check(CLI::Range(1, 1000));
-  app.add_option("--seconds", options.seconds, "that are measured of each")->check(CLI::Range(1, 3600));
-  app.add_option("--cpu-seconds", options.cpu_seconds, "in which CPU time is measured")->check(CLI::Range(1, 3600));
-  app.add_flag("--smoke", options.smoke, "only whether everything arrives: the two most important networks");
-  app.add_option("--json", options.json, "also write the figures to this file");
-  const std::string hidden;
-  app.add_option("--role", options.role)->group(hidden);
-  app.add_option("--way", options.way)->group(hidden);
-  app.add_option("--log", options.log)->group(hidden);
-  app.add_option("--rate", options.rate_hz)->group(hidden)->check(CLI::Range(1, 1000));
-  app.add_option("--folder", options.meeting.folder)->group(hidden);
-  app.add_option("--address", options.meeting.address)->group(hidden);
-  app.add_flag("--loopback", options.meeting.loopback)->group(hidden);
-  CLI11_PARSE(app, argc, argv);
   try {
+    CLI::App app("Compares telehug's secured touches with MQTT over TLS and raw UDP");
+    app.add_option("--rounds", options.rounds, "exchanges of each way in each network")->check(CLI::Range(1, 1000));
+    app.add_option("--seconds", options.seconds, "that are measured of each")->check(CLI::Range(1, 3600));
+    app.add_option("--cpu-seconds", options.cpu_seconds, "in which CPU time is measured")->check(CLI::Range(1, 3600));
+    app.add_flag("--smoke", options.smoke, "only whether everything arrives: the two most important networks");
+    app.add_option("--json", options.json, "also write the figures to this file");
+    const std::string hidden;
+    app.add_option("--role", options.role)->group(hidden);
+    app.add_option("--way", options.way)->group(hidden);
+    app.add_option("--log", options.log)->group(hidden);
+    app.add_option("--rate", options.rate_hz)->group(hidden)->check(CLI::Range(1, 1000));
+    app.add_option("--folder", options.meeting.folder)->group(hidden);
+    app.add_option("--address", options.meeting.address)->group(hidden);
+    app.add_flag("--loopback", options.meeting.loopback)->group(hidden);
+    CLI11_PARSE(app, argc, argv);
     return run(options);
   } catch (const std::exception& error) {
-    fmt::print(stderr, "bench_homes: {}\n", error.what());
+    std::fputs("bench_homes: ", stderr);
+    std::fputs(error.what(), stderr);
+    std::fputs("\n", stderr);
     return 1;
   }
 }

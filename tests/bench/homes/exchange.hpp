@@ -6,6 +6,7 @@
 
 #include "bench/homes/link_figures.hpp"
 #include "bench/homes/touch_ways.hpp"
+#include "doubles/child_program.hpp"
 #include "doubles/temporary_folder.hpp"
 #include "netlab/two_homes.hpp"
 
@@ -40,6 +41,14 @@ class Exchanges {
   [[nodiscard]] Exchange run(const Network& network, const ExchangePlan& plan);
 
  private:
+  struct Programs {
+    std::unique_ptr<ChildProgram> broker;  // only for MQTT
+    std::unique_ptr<ChildProgram> receiver;
+    std::unique_ptr<ChildProgram> sender;
+  };
+  [[nodiscard]] Programs start(const Meeting& meeting, const ExchangePlan& plan,
+                               const std::filesystem::path& log) const;
+
   TwoHomes homes_;
   TemporaryFolder folder_;
   std::mt19937 random_;

@@ -13,7 +13,7 @@ std::vector<double> ages_ms(const std::vector<Arrival>& arrivals, const Span& sp
   std::uniform_real_distribution<double> chance(0, 1);
   std::int64_t newest_sent_ns = 0;
   std::size_t next = 0;
-  const Duration period = std::chrono::duration_cast<Duration>(1s) / rate_hz;
+  const Duration period = Duration(1s) / rate_hz;
   for (Timestamp slot = span.from; slot + period <= span.until; slot += period) {
     const std::int64_t look_ns = to_ns(slot + std::chrono::duration_cast<Duration>(period * chance(random)));
     for (; next < arrivals.size() && arrivals[next].arrived_ns <= look_ns; ++next)

@@ -42,11 +42,12 @@ void send_touches(Way way, const Meeting& meeting, int rate_hz) {
   const SteadyClock clock;
   const auto out = sender(way, meeting);
   TouchEventBuilder builder(new_session_id());
-  const Duration period = std::chrono::duration_cast<Duration>(1s) / rate_hz;
+  const Duration period = Duration(1s) / rate_hz;
   Timestamp next = clock.now();
   for (std::uint64_t sequence = 1;; ++sequence) {
+    const BoxedContacts contacts = planned_touch(sequence);
     const Timestamp now = clock.now();
-    const TouchEvent* event = builder.build(planned_touch(sequence), planned_grid, 1, now, now);
+    const TouchEvent* event = builder.build(contacts, planned_grid, 1, now, now);
     if (event != nullptr) out->send(*event);
     next = std::max(next + period, clock.now());
     std::this_thread::sleep_until(next);
