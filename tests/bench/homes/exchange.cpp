@@ -17,7 +17,7 @@ namespace {
 
 constexpr const char* loopback_address = "127.0.0.1";
 // TLS and DDS Security both need several round trips, which may be lost. Where a round trip takes longer than Fast DDS
-// waits for an answer (500 ms) its handshake may never end; the daemons then replace the participant (LinkSupervisor).
+// waits for an answer (500 ms) its handshake may not end; the daemons then replace the participant (LinkSupervisor).
 constexpr Duration longest_start = 20s;
 constexpr int most_starts = 5;
 constexpr Duration aftermath = 1s;  // so long the receiver hears what was sent late
