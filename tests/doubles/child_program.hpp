@@ -52,6 +52,8 @@ class ChildProgram {
   ChildProgram(const ChildProgram&) = delete;
   ChildProgram& operator=(const ChildProgram&) = delete;
 
+  [[nodiscard]] pid_t pid() const noexcept { return pid_; }
+
   void end() {
     if (pid_ == 0) return;
     ::kill(pid_, SIGKILL);

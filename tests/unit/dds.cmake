@@ -48,3 +48,7 @@ telehug_test(test_qr_code KIND unit SUBJECT link
 telehug_test(test_membership KIND unit SUBJECT link
   SOURCES unit/daemon/connections_test.cpp unit/daemon/hug_request_test.cpp unit/daemon/membership_test.cpp
   DEPS telehug_daemon)
+
+telehug_test(test_link_figures KIND unit SUBJECT link
+  SOURCES unit/bench/link_figures_test.cpp bench/homes/link_figures.cpp
+  DEPS active_publish)

@@ -111,9 +111,10 @@ using Datagram = std::array<char, event_bytes>;
 template <typename Exchange>
 void pace(const Options& options, Figures& figures, Exchange exchange) {
   const SteadyClock clock;
+  const Duration period = Duration(1s) / options.rate_hz;  // 1s alone counts whole seconds
   Timestamp next = clock.now();
   for (int i = 0; i < options.samples; ++i) {
-    next = std::max(next + 1s / options.rate_hz, clock.now());
+    next = std::max(next + period, clock.now());
     std::this_thread::sleep_until(next);
     if (!exchange()) ++figures.lost;
   }
