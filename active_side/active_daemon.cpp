@@ -87,6 +87,7 @@ ExitCode ActiveDaemon::run(Signals& signals) {
   notifier_.stopping();
   end_thread();
   if (over) spdlog::error("{}", *over);
+  if (over) peer_.tell_pair_over(version);
   spdlog::info("telehug-active ends");
   return over ? ExitCode::pair_ended : ExitCode::ok;
 }

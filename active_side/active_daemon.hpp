@@ -17,6 +17,7 @@
 #include "config/config.hpp"
 #include "daemon/link_keeper.hpp"
 #include "daemon/membership.hpp"
+#include "daemon/peer_absence.hpp"
 #include "daemon/stop_switch.hpp"
 #include "local_touch/local_touch.hpp"
 #include "overlay/x11_hotkey.hpp"
@@ -104,6 +105,7 @@ class ActiveDaemon {
   nlohmann::json status() const;
   [[nodiscard]] nlohmann::json sending_json(const TouchThreadState& state) const;
   [[nodiscard]] std::optional<SideStatus> peer_told() const;
+  [[nodiscard]] PeerAbsence peer_absence() const;
   nlohmann::json problems(const TouchThreadState& state, const FaceState& face) const;
 
   ActiveConfig config_;

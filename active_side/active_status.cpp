@@ -134,6 +134,11 @@ std::optional<SideStatus> ActiveDaemon::peer_told() const {
   return peer_status_;
 }
 
+PeerAbsence ActiveDaemon::peer_absence() const {
+  return telehug::peer_absence(Side::active, membership_.pair.has_value(), peer_told(),
+                               link_keeper_.strangers().stranger());
+}
+
 Json ActiveDaemon::problems(const TouchThreadState& state, const FaceState& face) const {
   Json list = Json::array();
   const auto told = peer_told();
@@ -149,8 +154,8 @@ Json ActiveDaemon::problems(const TouchThreadState& state, const FaceState& face
   if (stop_.stopped()) list.push_back(problem_json("stopped here: " + stop_.reason(), "run `telehug resume`"));
   if (peer_.stopped_by_peer()) list.push_back(peer_stop_problem_json(told));
   if (!state.peer.alive) {
-    list.push_back(
-        problem_json("no peer is connected", "start telehug-passive on the other PC; domain and partition must agree"));
+    const PeerAbsence absence = peer_absence();
+    list.push_back(problem_json(absence.what, absence.to_do));
   } else if (told && told->stopped && !stop_.stopped() && !peer_.stopped_by_peer()) {
     list.push_back(problem_json("the other side still holds to a stop of this one", "run `telehug resume`"));
   } else if (told && !told->ready && !told->stopped) {
@@ -197,6 +202,7 @@ Json ActiveDaemon::status() const {
   counters["touches_outside_grid"] = state.nobody.outside_grid;
   counters["touches_withheld"] = state.withheld;
   counters["peer_losses"] = state.peer.losses;
+  counters["peers_refused"] = link_keeper_.strangers().refusals();
   counters["messages_dropped"] = peer_.dropped() + traffic_.dropped();
 
   const char* open_why = state.camera_open      ? state.peer.alive ? "a peer is connected" : "this PC uses the touches"
@@ -310,7 +316,7 @@ void ActiveDaemon::tell_watchers() {
   told_recording_over_ = state.recording_over;
   const FaceState face = state.face ? state.face->state() : FaceState{};
   show_touched_box(face, state.face.get());
-  say_peer_.say(spdlog::level::info, state.peer.alive ? "peer connected" : "no peer");
+  say_peer_.say(spdlog::level::info, state.peer.alive ? "peer connected" : peer_absence().what);
   say_camera_.say(state.camera_lost ? spdlog::level::warn : spdlog::level::info, state.camera_lost
                                                                                      ? state.camera_problem
                                                                                  : state.camera_open ? "camera open"

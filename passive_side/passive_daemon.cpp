@@ -75,6 +75,7 @@ ExitCode PassiveDaemon::run(Signals& signals) {
   notifier_.stopping();
   end_thread();
   if (over) spdlog::error("{}", *over);
+  if (over) peer_.tell_pair_over(version);
   spdlog::info("telehug-passive ends; the jacket is off");
   return over ? ExitCode::pair_ended : ExitCode::ok;
 }

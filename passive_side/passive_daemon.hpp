@@ -15,6 +15,7 @@
 #include "config/config.hpp"
 #include "daemon/link_keeper.hpp"
 #include "daemon/membership.hpp"
+#include "daemon/peer_absence.hpp"
 #include "daemon/stop_switch.hpp"
 #include "jacket/jacket_profile.hpp"
 #include "passive_pipeline.hpp"
@@ -78,6 +79,7 @@ class PassiveDaemon {
   void answer_commands();
   nlohmann::json status() const;
   [[nodiscard]] std::optional<SideStatus> peer_told() const;
+  [[nodiscard]] PeerAbsence peer_absence() const;
   nlohmann::json problems(const DriveThreadState& state) const;
   [[nodiscard]] DriveThreadState state() const;
 

@@ -48,6 +48,11 @@ std::optional<SideStatus> PassiveDaemon::peer_told() const {
   return peer_status_;
 }
 
+PeerAbsence PassiveDaemon::peer_absence() const {
+  return telehug::peer_absence(Side::passive, membership_.pair.has_value(), peer_told(),
+                               link_keeper_.strangers().stranger());
+}
+
 Json PassiveDaemon::problems(const DriveThreadState& now) const {
   Json list = Json::array();
   if (now.link.state != LinkState::armed) {
@@ -57,8 +62,8 @@ Json PassiveDaemon::problems(const DriveThreadState& now) const {
   if (stop_.stopped()) list.push_back(problem_json("stopped here: " + stop_.reason(), "run `telehug resume`"));
   if (peer_.stopped_by_peer()) list.push_back(peer_stop_problem_json(peer_told()));
   if (!now.peer.alive) {
-    list.push_back(
-        problem_json("no peer is connected", "start telehug-active on the other PC; domain and partition must agree"));
+    const PeerAbsence absence = peer_absence();
+    list.push_back(problem_json(absence.what, absence.to_do));
   }
   return list;
 }
@@ -68,6 +73,7 @@ Json PassiveDaemon::status() const {
   const bool armed = now.link.state == LinkState::armed;
   Json counters = metrics_.counters_json();
   counters["peer_losses"] = now.peer.losses;
+  counters["peers_refused"] = link_keeper_.strangers().refusals();
   counters["messages_dropped"] = peer_.dropped() + traffic_.dropped();
   const SafetyCounters& safety = now.safety;
   counters["safety_accepted"] = safety.drives_accepted;
@@ -137,7 +143,7 @@ void PassiveDaemon::tell_watchers() {
                          {"actuators", id_list(change.actuators)}});
   }
   const DriveThreadState now = state();
-  say_peer_.say(spdlog::level::info, now.peer.alive ? "peer connected" : "no peer");
+  say_peer_.say(spdlog::level::info, now.peer.alive ? "peer connected" : peer_absence().what);
   if (now.link.state == LinkState::armed) {
     say_jacket_.say(spdlog::level::info, fmt::format("jacket ready: {}, firmware {}, {} motors", now.link.device,
                                                      now.link.firmware_version, now.link.motor_count));
