@@ -11,9 +11,9 @@ constexpr Duration longest_return = 20s;
 
 }  // namespace
 
-FaultyLink::FaultyLink() : homes(seed) {
+FaultyLink::FaultyLink(Pairing pairing) : homes(seed) {
   pair.loopback_only = false;
-  pair.pair_up();
+  if (pairing == Pairing::done) pair.pair_up();
 }
 
 void FaultyLink::start_active() {
@@ -24,6 +24,11 @@ void FaultyLink::start_active() {
 void FaultyLink::start_passive() {
   const InsideNamespace inside(homes.network(Home::child));
   pair.start_passive();
+}
+
+Outcome FaultyLink::run(Home home, const std::vector<std::string>& command) const {
+  const InsideNamespace inside(homes.network(home));
+  return pair.run(command);
 }
 
 bool FaultyLink::start_all() {

@@ -15,13 +15,16 @@ namespace telehug {
 // everything works a motor runs.
 class FaultyLink {
  public:
-  FaultyLink();
+  enum class Pairing { done, left_to_the_test };
+  explicit FaultyLink(Pairing pairing = Pairing::done);
 
   TwoHomes homes;
   RunningPair pair;
 
   void start_active();
   void start_passive();
+  // Runs a program in a home to its end.
+  [[nodiscard]] Outcome run(Home home, const std::vector<std::string>& command) const;
   // Everything from nothing. False if the finger is not felt.
   bool start_all();
   // Waits until a motor runs and has run without a gap for a while. After a break motors may run, lose the sender's
