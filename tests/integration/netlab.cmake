@@ -32,10 +32,14 @@ if(NOT TELEHUG_SANITIZER)
 
   telehug_test(test_link_faults KIND integration SUBJECT link
     SOURCES integration/link_faults/link_faults_test.cpp DEPS faulty_link)
+  telehug_test(test_link_changes KIND integration SUBJECT link
+    SOURCES integration/link_faults/link_changes_test.cpp
+    DEPS faulty_link telehug_pairing OpenSSL::Crypto nlohmann_json::nlohmann_json TIMEOUT 1800)
   telehug_test(test_pairing_between_homes KIND integration SUBJECT link
     SOURCES integration/link_faults/pairing_between_homes_test.cpp DEPS faulty_link telehug_pairing_link)
   telehug_test(test_refusals KIND integration SUBJECT link
     SOURCES integration/link_faults/refusals_test.cpp
     DEPS faulty_link telehug_pairing OpenSSL::Crypto nlohmann_json::nlohmann_json)
-  set_tests_properties(test_link_faults test_pairing_between_homes test_refusals PROPERTIES RUN_SERIAL TRUE)
+  set_tests_properties(test_link_changes test_link_faults test_pairing_between_homes test_refusals
+    PROPERTIES RUN_SERIAL TRUE)
 endif()

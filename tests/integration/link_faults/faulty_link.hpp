@@ -38,6 +38,9 @@ class FaultyLink {
                      const std::function<void()>& mend_it);
   // Something bad that goes on for as long as `endure` takes, in which touches should be felt.
   FaultRow disturb(const std::string& fault, const std::function<void()>& endure, const std::function<void()>& mend_it);
+  // Something that happens once, and after which touches are felt on or, after a pause, again: "off" and "back" both
+  // count from it. Without a pause both are 0.
+  FaultRow step(const std::string& fault, const std::function<void()>& happen);
 
   // What the parent's home said from the start of its daemon until the finger was felt.
   [[nodiscard]] const std::vector<CapturedPacket>& first_words() const noexcept { return first_words_; }

@@ -55,7 +55,7 @@ namespace rtps = eprosima::fastrtps::rtps;
 // The wire type, without the bounds that the generated code would refuse to send.
 class UncheckedType : public Topic<TouchEvent>::WireSupport {
  public:
-  UncheckedType() { m_typeSize = 4096; }
+  UncheckedType() { m_typeSize = 8192; }
   bool serialize(void* data, rtps::SerializedPayload_t* payload) override {
     using eprosima::fastcdr::Cdr;
     eprosima::fastcdr::FastBuffer buffer(reinterpret_cast<char*>(payload->data), payload->max_size);
@@ -125,7 +125,7 @@ void spoil(v1::TouchEvent& event, std::uint64_t which) {
       event.contacts().resize(max_contacts + 1, contact);
       break;
     case 1:
-      event.transitions().resize(200);
+      event.transitions().resize(max_transitions + 1);
       break;
     case 2:
       contact.phase(static_cast<v1::Phase>(99));
