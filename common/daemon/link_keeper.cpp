@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "daemon/link_keeper.hpp"
 
+#include <malloc.h>
 #include <spdlog/spdlog.h>
 #include <unistd.h>
 
@@ -83,6 +84,8 @@ void LinkKeeper::replace(LinkCause cause, const Endpoints& endpoints) {
   // The old one goes first: its ports are the next one's.
   endpoints.disconnect();
   participant_.reset();
+  // Its threads' heaps are not those of the next one's: what is free there would never be used again.
+  malloc_trim(0);
   signs_ = 0;
   strangers_.participant_replaced();
   try {
