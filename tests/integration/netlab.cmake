@@ -40,6 +40,9 @@ if(NOT TELEHUG_SANITIZER)
   telehug_test(test_refusals KIND integration SUBJECT link
     SOURCES integration/link_faults/refusals_test.cpp
     DEPS faulty_link telehug_pairing OpenSSL::Crypto nlohmann_json::nlohmann_json)
-  set_tests_properties(test_link_changes test_link_faults test_pairing_between_homes test_refusals
+  telehug_test(test_forgery KIND integration SUBJECT link
+    SOURCES integration/link_faults/forgery_test.cpp
+    DEPS faulty_link telehug_dds telehug_idl USES_FASTDDS)
+  set_tests_properties(test_forgery test_link_changes test_link_faults test_pairing_between_homes test_refusals
     PROPERTIES RUN_SERIAL TRUE)
 endif()
