@@ -8,6 +8,7 @@
 
 #include <stdexcept>
 
+#include "dds/filtering_transport.hpp"
 #include "dds/participant_number.hpp"
 
 namespace telehug {
@@ -152,7 +153,11 @@ dds::DomainParticipantQos participant_qos(const DdsSettings& settings) {
   }
   for (const std::string& peer : settings.peers)
     builtin.initialPeersList.push_back(udp_locator(peer));
-  qos.transport().user_transports.push_back(udp);
+  if (settings.security) {
+    qos.transport().user_transports.push_back(filtering(udp));
+  } else {
+    qos.transport().user_transports.push_back(udp);
+  }
 
   // A long lease: a side that drops the other after a short one-way loss may never find it again once DDS security is
   // on. Who lives is for the heartbeats to say. Announcing each second lets a late joiner match within that time.
