@@ -2,8 +2,8 @@
 //
 // Packets that an outsider makes in the paired sender's name, without any key: everything that they need beyond that,
 // who is who and which of its writers is which, goes over the network in the clear or can be guessed. Fast DDS 2.9
-// takes messages that are not encrypted in spite of rtps_protection_kind ENCRYPT; only protected payloads are refused
-// then.
+// takes messages that are not encrypted in spite of rtps_protection_kind ENCRYPT; what keeps them out is
+// dds/message_filter.
 #include <fastcdr/Cdr.h>
 #include <gtest/gtest.h>
 #include <telehug.h>
