@@ -10,17 +10,17 @@ telehug_settings(netlab)
 
 telehug_test(test_netlab KIND integration SUBJECT link SOURCES integration/netlab/two_homes_test.cpp DEPS netlab)
 
-# The wall clock of a program under test (LD_PRELOAD).
-add_library(wall_clock_shim MODULE wall_clock/shim.cpp)
-telehug_settings(wall_clock_shim)
-
-# A peer that no daemon would be.
-telehug_program(purpose-made-sender SOURCES integration/link_faults/purpose_made_sender.cpp
-  DEPS telehug_dds telehug_idl telehug_pairing telehug_peer CLI11::CLI11 USES_FASTDDS)
-set_target_properties(purpose-made-sender PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/tests)
-
 # They measure how long real processes take: beside other tests they would measure those, with sanitizers nothing.
 if(NOT TELEHUG_SANITIZER)
+  # The wall clock of a program under test (LD_PRELOAD).
+  add_library(wall_clock_shim MODULE wall_clock/shim.cpp)
+  telehug_settings(wall_clock_shim)
+
+  # A peer that no daemon would be.
+  telehug_program(purpose-made-sender SOURCES integration/link_faults/purpose_made_sender.cpp
+    DEPS telehug_dds telehug_idl telehug_pairing telehug_peer CLI11::CLI11 USES_FASTDDS)
+  set_target_properties(purpose-made-sender PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/tests)
+
   add_library(faulty_link STATIC integration/link_faults/faulty_link.cpp integration/link_faults/fault_table.cpp)
   target_include_directories(faulty_link PUBLIC ${CMAKE_CURRENT_SOURCE_DIR})
   target_link_libraries(faulty_link PUBLIC running_pair netlab)
