@@ -303,7 +303,9 @@ void ActiveDaemon::load_rig_if_changed() {
 }
 
 bool ActiveDaemon::follow_pairs() {
-  return wearers_.follow_pairs(wall_time(), [](ConnectedWearer&, const std::string& why) { spdlog::error("{}", why); });
+  return wearers_.follow_pairs(
+      wall_time(), [](ConnectedWearer&, const std::string& why) { spdlog::error("{}", why); },
+      [](ConnectedWearer& wearer) { wearer.connection.tell_pair_over(); });
 }
 
 std::vector<ConnectionStatus> ActiveDaemon::connections() const {

@@ -163,10 +163,7 @@ Json ActiveDaemon::problems(const TouchThreadState& state, const FaceState& face
   add_pair_ends(list, connections);
   for (const ConnectionStatus& wearer : connections)
     if (const Json problem = wearer_problem(wearer, stop_.stopped()); !problem.is_null()) list.push_back(problem);
-  if (!any_alive(connections)) {
-    list.push_back(
-        problem_json("no peer is connected", "start telehug-passive on the other PC; domain and partition must agree"));
-  }
+  add_absences(list, Side::active, connections);
   if (state.camera_lost) list.push_back(problem_json(state.camera_problem, "plug the camera in, or correct [camera]"));
   if (state.camera_drift == DriftState::moved || state.camera_drift == DriftState::unseen) {
     list.push_back(problem_json(drift_text(state.camera_drift), "run `telehug-active calibrate`"));

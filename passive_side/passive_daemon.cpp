@@ -93,12 +93,14 @@ ExitCode PassiveDaemon::run(Signals& signals) {
 }
 
 bool PassiveDaemon::follow_pairs() {
-  return senders_.follow_pairs(wall_time(), [this](ConnectedSender& sender, const std::string& why) {
+  const auto ending = [this](ConnectedSender& sender, const std::string& why) {
     spdlog::error("{}", why);
     // A stop outlives whoever said it.
     if (sender.connection.stopped_by_peer() && !stop_.stopped())
       stop_.stop({{"reason", sender.name() + " had stopped everything before the pair ended"}});
-  });
+  };
+  return senders_.follow_pairs(wall_time(), ending,
+                               [](ConnectedSender& sender) { sender.connection.tell_pair_over(); });
 }
 
 void PassiveDaemon::end_thread() {

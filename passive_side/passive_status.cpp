@@ -56,10 +56,7 @@ Json PassiveDaemon::problems(const DriveThreadState& now, const std::vector<Conn
     if (connection.stopped_by_peer) list.push_back(peer_stop_problem_json(connection));
   for (const std::string& pair : left_out_)
     list.push_back(problem_json(pair, "the other pairs work; start telehug-passive again when it is mended"));
-  if (!any_alive(connections)) {
-    list.push_back(
-        problem_json("no peer is connected", "start telehug-active on the other PC; domain and partition must agree"));
-  }
+  add_absences(list, Side::passive, connections);
   return list;
 }
 

@@ -7,8 +7,10 @@
 #include <string>
 #include <utility>
 
+#include "common/version.hpp"
 #include "daemon/link_keeper.hpp"
 #include "daemon/membership.hpp"
+#include "daemon/peer_absence.hpp"
 #include "daemon/status_parts.hpp"
 #include "daemon/stop_switch.hpp"
 #include "peer_link/peer_link.hpp"
@@ -69,8 +71,14 @@ class Connection {
     beside_.serve(wall_now);
     const PeerState peer = state();
     keeper_.serve(peer, LinkKeeper::endpoints(peer_, traffic_, beside_));
-    say_peer_.say(spdlog::level::info, peer.alive ? name() + " is connected" : name() + " is not connected");
+    const auto absence = [&] {
+      return peer_absence(membership_.dds.side, membership_.pair.has_value(), told(), keeper_.strangers().stranger());
+    };
+    say_peer_.say(spdlog::level::info, peer.alive ? name() + " is connected" : name() + ": " + absence().what);
   }
+
+  // The last word, when the pair is over; waits a moment for the peer to have it.
+  void tell_pair_over() { peer_.tell_pair_over(version); }
 
   // --- any thread ---
 
@@ -91,7 +99,14 @@ class Connection {
     return told_;
   }
   [[nodiscard]] ConnectionStatus status() const {
-    return {membership_.pair, state(), told(), keeper_.status(), peer_.stopped_by_peer(), dropped()};
+    return {membership_.pair,
+            state(),
+            told(),
+            keeper_.status(),
+            peer_.stopped_by_peer(),
+            dropped(),
+            keeper_.strangers().stranger(),
+            keeper_.strangers().refusals()};
   }
 
  private:

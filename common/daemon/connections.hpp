@@ -38,19 +38,27 @@ class Connections {
     set(std::move(list));
   }
 
-  // Every round. `ended` is called with every connection whose pair has ended, and why, before it is closed. False if
-  // none is left.
-  bool follow_pairs(WallTime now, const std::function<void(C&, const std::string&)>& ended) {
+  // Every round. Of every connection whose pair has ended: `ending` is called with it, and why, while the pipeline
+  // still uses it, `ended` after the pipeline was told to let go of it. False if none is left.
+  bool follow_pairs(WallTime now, const std::function<void(C&, const std::string&)>& ending,
+                    const std::function<void(C&)>& ended) {
     List list = all();
-    const auto over = [&](const std::shared_ptr<C>& connection) {
+    List over;
+    for (const auto& connection : list) {
       const auto why = pair_over(connection->membership(), now);
-      if (why) ended(*connection, *why);
-      return why.has_value();
-    };
-    bool changed = std::erase_if(list, over) > 0;
+      if (!why) continue;
+      ending(*connection, *why);
+      over.push_back(connection);
+    }
+    for (const auto& connection : over)
+      std::erase(list, connection);
+    bool changed = !over.empty();
     if (!list.empty()) changed = add_new_pairs(list, now) || changed;
     const bool any_left = !list.empty();
     if (changed) set(std::move(list));
+    for (const auto& connection : over)
+      ended(*connection);
+    over.clear();
     // The pipeline lets go of a connection when it looks at the list; only then may it be destroyed, and not there.
     std::erase_if(leaving_, [](const auto& connection) { return connection.use_count() == 1; });
     return any_left;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "daemon/link_keeper.hpp"
 
+#include <malloc.h>
 #include <spdlog/spdlog.h>
 #include <unistd.h>
 
@@ -41,6 +42,7 @@ void LinkKeeper::serve(const PeerState& peer, const Endpoints& endpoints) {
   const Timestamp now = clock_.now();
   if (addresses_) look_at_network(now);
   look_at_peer(peer, now);
+  look_at_strangers(now);
   look_at_memory(now);
   if (const auto cause = supervisor_.due(now)) replace(*cause, endpoints);
 }
@@ -66,6 +68,12 @@ void LinkKeeper::look_at_peer(const PeerState& peer, Timestamp now) {
   peer_session_ = peer.session;
 }
 
+void LinkKeeper::look_at_strangers(Timestamp now) {
+  static const std::set<std::string> none;
+  if (!participant_) return;
+  strangers_.look(participant_->stranger(), participant_->refusals(), addresses_ ? addresses_->addresses() : none, now);
+}
+
 void LinkKeeper::look_at_memory(Timestamp now) {
   if (now - memory_looked_at_ < memory_interval) return;
   memory_looked_at_ = now;
@@ -76,7 +84,10 @@ void LinkKeeper::replace(LinkCause cause, const Endpoints& endpoints) {
   // The old one goes first: its ports are the next one's.
   endpoints.disconnect();
   participant_.reset();
+  // Its threads' heaps are not those of the next one's: what is free there would never be used again.
+  malloc_trim(0);
   signs_ = 0;
+  strangers_.participant_replaced();
   try {
     endpoints.connect(participant_.emplace(settings_));
   } catch (const std::exception& problem) {

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "daemon/stranger_note.hpp"
 #include "dds/participant.hpp"
 #include "network/address_watcher.hpp"
 #include "network/suspend_detector.hpp"
@@ -50,10 +51,12 @@ class LinkKeeper {
 
   // Any thread.
   [[nodiscard]] nlohmann::json status() const;
+  [[nodiscard]] const StrangerNote& strangers() const noexcept { return strangers_; }
 
  private:
   void look_at_network(Timestamp now);
   void look_at_peer(const PeerState& peer, Timestamp now);
+  void look_at_strangers(Timestamp now);
   void look_at_memory(Timestamp now);
   void replace(LinkCause cause, const Endpoints& endpoints);
 
@@ -64,6 +67,7 @@ class LinkKeeper {
   LinkSupervisor supervisor_;
   std::optional<DdsParticipant> participant_;
   SessionId peer_session_{};
+  StrangerNote strangers_;
   std::uint64_t signs_ = 0;  // of peers, seen by the present participant
   Timestamp memory_looked_at_;
   mutable std::mutex told_mutex_;

@@ -6,6 +6,8 @@
 #include <utility>
 
 #include "daemon/membership.hpp"
+#include "daemon/peer_absence.hpp"
+#include "peer_link/pair_over.hpp"
 
 namespace telehug {
 
@@ -58,15 +60,32 @@ void add_pair_ends(nlohmann::json& problems, const std::vector<ConnectionStatus>
   }
 }
 
+void add_absences(nlohmann::json& problems, Side own, const std::vector<ConnectionStatus>& connections) {
+  const bool alive = any_alive(connections);
+  std::vector<std::string> said;
+  for (const ConnectionStatus& connection : connections) {
+    const bool over = connection.told && connection.told->reason == pair_over_reason;
+    if (connection.peer.alive || (alive && !over)) continue;
+    const PeerAbsence absence = peer_absence(own, connection.pair.has_value(), connection.told, connection.stranger);
+    const std::string what = alive ? connection.name() + ": " + absence.what : absence.what;
+    if (std::ranges::find(said, what) != said.end()) continue;
+    said.push_back(what);
+    problems.push_back(problem_json(what, absence.to_do));
+  }
+}
+
 void count_connections(nlohmann::json& counters, const std::vector<ConnectionStatus>& connections) {
   std::uint64_t losses = 0;
   std::uint64_t dropped = 0;
+  std::uint64_t refusals = 0;
   for (const ConnectionStatus& connection : connections) {
     losses += connection.peer.losses;
     dropped += connection.dropped;
+    refusals += connection.refusals;
   }
   counters["peer_losses"] = losses;
   counters["messages_dropped"] = dropped;
+  counters["peers_refused"] = refusals;
 }
 
 bool any_alive(const std::vector<ConnectionStatus>& connections) {

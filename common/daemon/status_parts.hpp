@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "dds/strangers.hpp"
 #include "pairing/pairing.hpp"
 #include "peer_link/peer_link.hpp"
 
@@ -29,6 +30,8 @@ struct ConnectionStatus {
   nlohmann::json link;             // LinkKeeper's
   bool stopped_by_peer = false;
   std::uint64_t dropped = 0;  // messages that were malformed or out of range
+  std::optional<Stranger> stranger;
+  std::uint64_t refusals = 0;  // of peers that do not belong to the pair
 
   [[nodiscard]] std::string name() const { return name_of(pair); }
 };
@@ -46,7 +49,10 @@ void add_connections(nlohmann::json& status, const std::vector<ConnectionStatus>
 // Adds a problem for each pair that ends soon.
 void add_pair_ends(nlohmann::json& problems, const std::vector<ConnectionStatus>& connections);
 
-// Adds "peer_losses" and "messages_dropped" of all of them together.
+// Adds why nobody is connected, or why one of several whose pair is over is not.
+void add_absences(nlohmann::json& problems, Side own, const std::vector<ConnectionStatus>& connections);
+
+// Adds "peer_losses", "peers_refused" and "messages_dropped" of all of them together.
 void count_connections(nlohmann::json& counters, const std::vector<ConnectionStatus>& connections);
 
 [[nodiscard]] bool any_alive(const std::vector<ConnectionStatus>& connections);

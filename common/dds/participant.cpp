@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "dds/participant.hpp"
 
+#include <fastrtps/utils/IPLocator.h>
 #include <fastrtps/xmlparser/XMLProfileManager.h>
 #include <fmt/format.h>
 #include <netinet/in.h>
@@ -8,6 +9,7 @@
 #include <unistd.h>
 #include <fastdds/dds/domain/DomainParticipantFactory.hpp>
 
+#include <algorithm>
 #include <cerrno>
 #include <stdexcept>
 #include <system_error>
@@ -18,6 +20,7 @@
 namespace telehug {
 
 namespace dds = eprosima::fastdds::dds;
+namespace rtps = eprosima::fastrtps::rtps;
 
 namespace {
 
@@ -48,9 +51,46 @@ Qos in_partition(Qos qos, const std::string& partition) {
   return qos;
 }
 
+Strangers::Id id_of(const rtps::GUID_t& guid) {
+  Strangers::Id id{};
+  std::copy_n(guid.guidPrefix.value, id.size(), id.begin());
+  return id;
+}
+
+std::string address_of(const rtps::ParticipantProxyData& participant) {
+  const auto& locators = participant.metatraffic_locators.unicast;
+  return locators.empty() ? "an unknown address" : rtps::IPLocator::ip_to_string(*locators.begin());
+}
+
 }  // namespace
 
-DdsParticipant::Impl::Impl(const DdsSettings& settings) : side(settings.side) {
+void SignsOfPeers::on_participant_discovery(dds::DomainParticipant* /*own*/, Discovery&& info) {
+  switch (info.status) {
+    case Discovery::DISCOVERED_PARTICIPANT:
+      strangers.discovered(id_of(info.info.m_guid), address_of(info.info), SteadyClock{}.now());
+      ++count;
+      break;
+    case Discovery::REMOVED_PARTICIPANT:
+    case Discovery::DROPPED_PARTICIPANT:
+      strangers.gone(id_of(info.info.m_guid));
+      break;
+    default:
+      break;
+  }
+}
+
+#if HAVE_SECURITY
+void SignsOfPeers::onParticipantAuthentication(dds::DomainParticipant* /*own*/, Authentication&& info) {
+  if (info.status == Authentication::AUTHORIZED_PARTICIPANT) {
+    strangers.proved(id_of(info.guid));
+    ++count;
+  } else {
+    strangers.refused(id_of(info.guid));
+  }
+}
+#endif
+
+DdsParticipant::Impl::Impl(const DdsSettings& settings) : side(settings.side), secured(settings.security.has_value()) {
   if (settings.domain_id > max_domain_id) {
     throw std::invalid_argument(
         fmt::format("DDS domain {} is out of range: choose 0 to {}", settings.domain_id, max_domain_id));
@@ -102,6 +142,14 @@ DdsParticipant::~DdsParticipant() = default;
 
 std::uint64_t DdsParticipant::signs_of_peers() const noexcept {
   return impl_->signs.count;
+}
+
+std::optional<Stranger> DdsParticipant::stranger() const {
+  return impl_->secured ? impl_->signs.strangers.longest_here(SteadyClock{}.now()) : std::nullopt;
+}
+
+std::uint64_t DdsParticipant::refusals() const {
+  return impl_->signs.strangers.refusals();
 }
 
 }  // namespace telehug

@@ -3,9 +3,11 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 
 #include "dds/dds_error.hpp"
 #include "dds/settings.hpp"
+#include "dds/strangers.hpp"
 
 namespace telehug {
 
@@ -23,6 +25,10 @@ class DdsParticipant {
 
   // How often another participant was discovered or proved who it is: grows while a peer is on its way to being heard.
   [[nodiscard]] std::uint64_t signs_of_peers() const noexcept;
+
+  // Who announces itself and is not heard, since it does not prove to be of this pair; nothing without a pair.
+  [[nodiscard]] std::optional<Stranger> stranger() const;
+  [[nodiscard]] std::uint64_t refusals() const;
 
   struct Impl;
   [[nodiscard]] const std::shared_ptr<Impl>& impl() const noexcept { return impl_; }

@@ -13,25 +13,24 @@
 #include "dds/guarded_type.hpp"
 #include "dds/participant.hpp"
 #include "dds/participant_number.hpp"
+#include "dds/strangers.hpp"
 
 namespace telehug {
 
-// Counts what other participants do that leads to their being heard. Discovery is open to everybody: a sign proves
-// nothing.
+// What other participants do that leads, or does not lead, to their being heard. Discovery is open to everybody: a sign
+// proves nothing.
 class SignsOfPeers final : public eprosima::fastdds::dds::DomainParticipantListener {
+  using Discovery = eprosima::fastrtps::rtps::ParticipantDiscoveryInfo;
+  using Authentication = eprosima::fastrtps::rtps::ParticipantAuthenticationInfo;
+
  public:
-  void on_participant_discovery(eprosima::fastdds::dds::DomainParticipant* /*own*/,
-                                eprosima::fastrtps::rtps::ParticipantDiscoveryInfo&& info) override {
-    if (info.status == eprosima::fastrtps::rtps::ParticipantDiscoveryInfo::DISCOVERED_PARTICIPANT) ++count;
-  }
+  void on_participant_discovery(eprosima::fastdds::dds::DomainParticipant* own, Discovery&& info) override;
 #if HAVE_SECURITY
-  void onParticipantAuthentication(eprosima::fastdds::dds::DomainParticipant* /*own*/,
-                                   eprosima::fastrtps::rtps::ParticipantAuthenticationInfo&& info) override {
-    if (info.status == eprosima::fastrtps::rtps::ParticipantAuthenticationInfo::AUTHORIZED_PARTICIPANT) ++count;
-  }
+  void onParticipantAuthentication(eprosima::fastdds::dds::DomainParticipant* own, Authentication&& info) override;
 #endif
 
   std::atomic<std::uint64_t> count = 0;
+  Strangers strangers;
 };
 
 struct DdsParticipant::Impl {
@@ -49,6 +48,7 @@ struct DdsParticipant::Impl {
   SignsOfPeers signs;        // before the participant, which calls it
   ParticipantNumber number;  // before the participant: given back after it
   Side side;
+  bool secured;
   eprosima::fastdds::dds::DomainParticipant* participant = nullptr;
   eprosima::fastdds::dds::Publisher* publisher = nullptr;
   eprosima::fastdds::dds::Subscriber* subscriber = nullptr;

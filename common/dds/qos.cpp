@@ -10,6 +10,7 @@
 #include <charconv>
 #include <stdexcept>
 
+#include "dds/filtering_transport.hpp"
 #include "dds/participant_number.hpp"
 
 namespace telehug {
@@ -224,7 +225,11 @@ dds::DomainParticipantQos participant_qos(const DdsSettings& settings) {
   for (const std::string& peer : settings.peers)
     builtin.initialPeersList.push_back(peer_locator(peer));
   if (settings.public_address) announce(qos, *settings.public_address, settings.domain_id);
-  qos.transport().user_transports.push_back(udp);
+  if (settings.security) {
+    qos.transport().user_transports.push_back(filtering(udp));
+  } else {
+    qos.transport().user_transports.push_back(udp);
+  }
 
   // A long lease: a side that drops the other after a short one-way loss may never find it again once DDS security is
   // on. Who lives is for the heartbeats to say. Announcing each second lets a late joiner match within that time.

@@ -57,6 +57,17 @@ int Writer<T>::matched() const noexcept {
   return status.current_count;
 }
 
+template <typename T>
+void Writer<T>::wait_until_heard(Duration longest) noexcept {
+  try {
+    const auto whole = std::chrono::floor<std::chrono::seconds>(longest);
+    impl_->writer->wait_for_acknowledgments(
+        {static_cast<std::int32_t>(whole.count()), static_cast<std::uint32_t>((longest - whole).count())});
+  } catch (const std::exception&) {
+    return;  // out of memory, or the middleware's own
+  }
+}
+
 template class Writer<TouchEvent>;
 template class Writer<Felt>;
 template class Writer<Heartbeat>;

@@ -3,6 +3,7 @@
 
 #include <memory>
 
+#include "common/clock.hpp"
 #include "common/messages.hpp"
 #include "dds/participant.hpp"
 
@@ -25,6 +26,9 @@ class Writer {
   // Readers that this writer is matched with. A reader that was killed stays matched for minutes (the lease is long,
   // see qos.hpp): whether the peer lives is for PeerMonitor to say.
   [[nodiscard]] int matched() const noexcept;
+
+  // Of a reliable topic: waits until all readers have what was written, at most so long.
+  void wait_until_heard(Duration longest) noexcept;
 
  private:
   struct Impl;

@@ -13,7 +13,8 @@
 namespace telehug {
 
 // Everything encrypted, nobody without a certificate: the same for every pair, since sides whose protection differs
-// don't meet, and don't say why.
+// don't meet, and don't say why. Messages as a whole, not each payload by itself: the keys of payloads are handed over
+// once for each writer, and over a long way on which packets overtake each other Fast DDS 2.9 may lose them for good.
 [[nodiscard]] std::string governance();
 
 // What `side` may do in its pair's partition: write its own topics and read the other side's (idl/README.md), nothing

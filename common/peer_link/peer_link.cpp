@@ -3,8 +3,12 @@
 
 #include <algorithm>
 
+#include "peer_link/pair_over.hpp"
+
 namespace telehug {
 namespace {
+
+constexpr Duration last_word_travels = 300ms;
 
 bool same(const SideStatus& a, const SideStatus& b) {
   return a.ready == b.ready && a.stopped == b.stopped && a.reason == b.reason;
@@ -87,6 +91,16 @@ void PeerLink::tell(const SideStatus& status) {
   tell_stop_again();
   if (!endpoints_ || (told_ && same(*told_, status))) return;
   if (write_with_reason(endpoints_->status_writer, status)) told_ = status;
+}
+
+void PeerLink::tell_pair_over(const std::string& version) {
+  SideStatus last;
+  last.session = session_;
+  last.side = side_;
+  last.version = version;
+  last.reason = pair_over_reason;
+  tell(last);
+  if (endpoints_) endpoints_->status_writer.wait_until_heard(last_word_travels);
 }
 
 bool PeerLink::tell_stop(bool stop, const std::string& reason) {

@@ -61,6 +61,8 @@ class PeerLink {
   // Tells the peer if it differs from what was told last. What the wire refuses of a reason (line breaks, bytes that
   // are no UTF-8) is replaced.
   void tell(const SideStatus& status);
+  // The last word of a side whose pair is over; waits a moment for the peer to have it.
+  void tell_pair_over(const std::string& version);
   // False if DDS refused it: tell it again.
   [[nodiscard]] bool tell_stop(bool stop, const std::string& reason);
   // The last word that DDS took, if any.

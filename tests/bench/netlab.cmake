@@ -10,3 +10,6 @@ telehug_bench(bench_homes USES_FASTDDS
 # Whether all three ways deliver; how fast is nobody's to assert.
 add_test(NAME test_bench_homes COMMAND bench_homes --smoke --rounds 1 --seconds 1 --cpu-seconds 1)
 set_tests_properties(test_bench_homes PROPERTIES LABELS "integration;link" TIMEOUT 300 SKIP_RETURN_CODE 77)
+
+telehug_bench(bench_pairs SOURCES bench/pairs/bench_pairs.cpp
+  DEPS netlab telehug_dds telehug_pairing telehug_peer telehug_peer_link)

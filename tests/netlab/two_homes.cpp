@@ -61,6 +61,19 @@ void TwoHomes::give_address(Home home) {
   ip(network(home), {"address", "add", address(home) + "/24", "dev", "home"});
 }
 
+void TwoHomes::change_address(Home home) {
+  change_address(home, address(home), other_address(home));
+}
+
+void TwoHomes::change_address_back(Home home) {
+  change_address(home, other_address(home), address(home));
+}
+
+void TwoHomes::change_address(Home home, const std::string& from, const std::string& to) {
+  ip(network(home), {"address", "del", from + "/24", "dev", "home"});
+  ip(network(home), {"address", "add", to + "/24", "dev", "home"});
+}
+
 void TwoHomes::pull_plug(Home home) {
   ip(middle_, {"link", "set", side(home).middle_end, "down"});
 }

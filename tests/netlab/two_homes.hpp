@@ -37,6 +37,13 @@ class TwoHomes {
   [[nodiscard]] static std::string address(Home home) { return home == Home::parent ? "10.77.0.1" : "10.77.0.2"; }
   void take_address(Home home);
   void give_address(Home home);
+  // Another one that a home may have.
+  [[nodiscard]] static std::string other_address(Home home) {
+    return home == Home::parent ? "10.77.0.11" : "10.77.0.12";
+  }
+  // From the first to the other one, as when a router hands out a new one; and back.
+  void change_address(Home home);
+  void change_address_back(Home home);
   // The interface without and with a carrier, as when its plug is pulled and put in.
   void pull_plug(Home home);
   void put_in_plug(Home home);
@@ -82,6 +89,7 @@ class TwoHomes {
     }
   };
 
+  void change_address(Home home, const std::string& from, const std::string& to);
   [[nodiscard]] Side& side(Home home) { return *sides_[static_cast<std::size_t>(home)]; }
   [[nodiscard]] const Side& side(Home home) const { return *sides_[static_cast<std::size_t>(home)]; }
   [[nodiscard]] bool passes(const Bytes& frame) const;

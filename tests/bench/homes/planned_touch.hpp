@@ -25,6 +25,7 @@ inline constexpr GridShape planned_grid{.columns = 5, .rows = 4};
                       .phase = frame == 0 ? Phase::down : Phase::move,
                       .screen = {.x_mm = 210 + 30 * std::cos(turn), .y_mm = 180 + 30 * std::sin(turn)},
                       .speed_mm_s = 180,
+                      .grid = planned_grid,
                       .box = 7,
                       .body = {.x_fh = 0.1 * std::cos(turn), .y_fh = 0.5},
                       .gesture = Gesture::stroke});
@@ -34,6 +35,7 @@ inline constexpr GridShape planned_grid{.columns = 5, .rows = 4};
                       .phase = place == 0 ? Phase::down : (place == tap_frames / 2 ? Phase::up : Phase::move),
                       .screen = {.x_mm = 120, .y_mm = 90},
                       .speed_mm_s = 0,
+                      .grid = planned_grid,
                       .box = 2,
                       .body = {.x_fh = -0.25, .y_fh = 0.25},
                       .gesture = place == tap_frames / 2 ? Gesture::tap : Gesture::none});

@@ -47,7 +47,7 @@ void send_touches(Way way, const Meeting& meeting, int rate_hz) {
   for (std::uint64_t sequence = 1;; ++sequence) {
     const BoxedContacts contacts = planned_touch(sequence);
     const Timestamp now = clock.now();
-    const TouchEvent* event = builder.build(contacts, planned_grid, 1, now, now);
+    const TouchEvent* event = builder.build(contacts, 1, now, now);
     if (event != nullptr) out->send(*event);
     next = std::max(next + period, clock.now());
     std::this_thread::sleep_until(next);

@@ -51,6 +51,9 @@ class RunningPair {
   bool loopback_only = true;
   std::vector<std::string> active_settings;  // SECTION.KEY=VALUE
   std::vector<std::string> passive_settings;
+  // What stands before a daemon's command line, such as env and its variables.
+  std::vector<std::string> active_prefix;
+  std::vector<std::string> passive_prefix;
 
   // Pairs the two sides; with it they speak through DDS Security. Of the PC that is `side`.
   [[nodiscard]] PairStore pairs(Side side) const;

@@ -9,6 +9,8 @@
 namespace telehug {
 namespace {
 
+constexpr Duration shortest_pause = 50ms;
+
 std::string figure(std::optional<double> value, int digits) {
   return value ? fmt::format("{:.{}f}", *value, digits) : "-";
 }
@@ -39,6 +41,17 @@ std::optional<Timestamp> FeltTimes::felt_from(Timestamp time) const {
   for (const Span& span : spans_)
     if (span.to > time) return std::max(span.from, time);
   return std::nullopt;
+}
+
+std::optional<FeltTimes::Pause> FeltTimes::pause(Timestamp from, Timestamp to) const {
+  std::optional<Pause> pause;
+  Timestamp silent = from;
+  for (const Span& span : spans_) {
+    if (span.to < from || span.from > to) continue;
+    if (span.from - silent >= shortest_pause) pause = {pause ? pause->from : silent, span.from};
+    silent = span.to;
+  }
+  return pause;
 }
 
 double FeltTimes::share(Timestamp from, Timestamp to) const {

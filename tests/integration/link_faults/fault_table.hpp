@@ -20,6 +20,12 @@ class FeltTimes {
   [[nodiscard]] std::optional<Timestamp> silent_since(Timestamp time) const;
   // From then on, the first moment in which a motor runs.
   [[nodiscard]] std::optional<Timestamp> felt_from(Timestamp time) const;
+  // The first pause between the two that is longer than a moment: its beginning, and the end of the last one.
+  struct Pause {
+    Timestamp from;
+    Timestamp to;
+  };
+  [[nodiscard]] std::optional<Pause> pause(Timestamp from, Timestamp to) const;
   // Of the time between, how much a motor ran.
   [[nodiscard]] double share(Timestamp from, Timestamp to) const;
   [[nodiscard]] Duration longest_gap(Timestamp from, Timestamp to) const;

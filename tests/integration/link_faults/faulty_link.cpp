@@ -8,12 +8,13 @@ namespace {
 
 constexpr std::uint32_t seed = 20261129;
 constexpr Duration longest_return = 20s;
+constexpr Duration watched_after_step = 4s;
 
 }  // namespace
 
-FaultyLink::FaultyLink(const std::string& wearer_at) : homes(seed) {
+FaultyLink::FaultyLink(Pairing pairing, const std::string& wearer_at) : homes(seed) {
   pair.loopback_only = false;
-  pair.pair_up(wearer_at);
+  if (pairing == Pairing::done) pair.pair_up(wearer_at);
 }
 
 const NetNamespace& FaultyLink::network(Home home) const {
@@ -29,6 +30,11 @@ void FaultyLink::start_active() {
 void FaultyLink::start_passive() {
   const InsideNamespace inside(network(Home::child));
   pair.start_passive();
+}
+
+Outcome FaultyLink::run(Home home, const std::vector<std::string>& command) const {
+  const InsideNamespace inside(homes.network(home));
+  return pair.run(command);
 }
 
 bool FaultyLink::start_all() {
@@ -81,6 +87,21 @@ FaultRow FaultyLink::disturb(const std::string& fault, const std::function<void(
   row.felt_percent = 100 * times.share(begun, mended);
   row.longest_gap_ms = to_ms(times.longest_gap(begun, mended));
   note_return(row, mended);
+  return row;
+}
+
+FaultRow FaultyLink::step(const std::string& fault, const std::function<void()>& happen) {
+  FaultRow row{fault};
+  const Timestamp happened = SteadyClock{}.now();
+  happen();
+  std::this_thread::sleep_until(happened + watched_after_step);
+  if (!settled()) return row;
+  const Timestamp now = SteadyClock{}.now();
+  const FeltTimes times = felt_times();
+  const auto pause = times.pause(happened, now);
+  row.off_after_ms = pause ? to_ms(pause->from - happened) : 0;
+  row.back_after_s = pause ? to_ms(pause->to - happened) / 1000 : 0;
+  row.longest_gap_ms = to_ms(times.longest_gap(happened, now));
   return row;
 }
 

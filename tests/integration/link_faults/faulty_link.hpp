@@ -18,8 +18,9 @@ namespace telehug {
 // everything works a motor runs.
 class FaultyLink {
  public:
+  enum class Pairing { done, left_to_the_test };
   // `wearer_at`: where the parent's PC dials the wearer's, if they are to have a WireGuard tunnel.
-  explicit FaultyLink(const std::string& wearer_at = "");
+  explicit FaultyLink(Pairing pairing = Pairing::done, const std::string& wearer_at = "");
 
   TwoHomes homes;
   RunningPair pair;
@@ -31,6 +32,8 @@ class FaultyLink {
 
   void start_active();
   void start_passive();
+  // Runs a program in a home to its end.
+  [[nodiscard]] Outcome run(Home home, const std::vector<std::string>& command) const;
   // Everything from nothing. False if the finger is not felt.
   bool start_all();
   // Waits until a motor runs and has run without a gap for a while. After a break motors may run, lose the sender's
@@ -44,6 +47,9 @@ class FaultyLink {
                      const std::function<void()>& mend_it);
   // Something bad that goes on for as long as `endure` takes, in which touches should be felt.
   FaultRow disturb(const std::string& fault, const std::function<void()>& endure, const std::function<void()>& mend_it);
+  // Something that happens once, and after which touches are felt on or, after a pause, again: "off" and "back" both
+  // count from it. Without a pause both are 0.
+  FaultRow step(const std::string& fault, const std::function<void()>& happen);
 
   // What the parent's home said from the start of its daemon until the finger was felt.
   [[nodiscard]] const std::vector<CapturedPacket>& first_words() const noexcept { return first_words_; }

@@ -11,53 +11,20 @@
 #include <system_error>
 #include <thread>
 
-#include "integration/link_faults/faulty_link.hpp"
+#include "integration/link_faults/faulty_link_test.hpp"
 #include "netlab/packet_mangler.hpp"
 #include "service/control_socket.hpp"
 
 namespace telehug {
 namespace {
 
-constexpr double longest_off_ms = 600;
-constexpr double longest_back_s = 6;
 // A sender that hears nothing from the jacket's side first has to notice that.
 constexpr double longest_notice_ms = 500;
 
 using Since = FaultyLink::Since;
 
-class LinkFaults : public testing::Test {
+class LinkFaults : public FaultyLinkTest {
  protected:
-  static void SetUpTestSuite() {
-    try {
-      link = std::make_unique<FaultyLink>();
-    } catch (const std::system_error& error) {
-      why_not = error.what();
-    }
-  }
-  static void TearDownTestSuite() {
-    link.reset();
-    if (!rows.empty()) fmt::print("\n{}\n", table_text(rows));
-    rows.clear();
-  }
-  void SetUp() override {
-    if (!link) GTEST_SKIP() << "network namespaces are not permitted here: " << why_not;
-    const bool runs = link->pair.active && link->pair.active->runs() && link->pair.passive->runs();
-    if (!(runs && link->settled())) {
-      ASSERT_TRUE(link->start_all()) << link->pair.logs();
-    }
-  }
-
-  static void expect_silence_and_return(const FaultRow& row, double off_ms = longest_off_ms) {
-    ASSERT_TRUE(row.off_after_ms) << row.fault << ": a motor went on" << link->pair.logs();
-    EXPECT_LE(*row.off_after_ms, off_ms) << row.fault << link->pair.logs();
-    expect_return(row);
-  }
-  static void expect_return(const FaultRow& row) {
-    rows.push_back(row);
-    ASSERT_TRUE(row.back_after_s) << row.fault << ": not felt again" << link->pair.logs();
-    EXPECT_LE(*row.back_after_s, longest_back_s) << row.fault << link->pair.logs();
-  }
-
   static void cut(const std::string& fault, Since since, Duration lasts, const WayFaults& from_parent,
                   const WayFaults& from_child, double off_ms = longest_off_ms) {
     expect_silence_and_return(link->interrupt(
@@ -93,15 +60,7 @@ class LinkFaults : public testing::Test {
   static std::uint16_t port(int above_the_first) {
     return static_cast<std::uint16_t>(7400 + 250 * link->pair.domain() + static_cast<unsigned>(above_the_first));
   }
-
-  static std::unique_ptr<FaultyLink> link;
-  static std::string why_not;
-  static std::vector<FaultRow> rows;
 };
-
-std::unique_ptr<FaultyLink> LinkFaults::link;
-std::string LinkFaults::why_not;
-std::vector<FaultRow> LinkFaults::rows;
 
 class LongLinkFaults : public LinkFaults {
  protected:

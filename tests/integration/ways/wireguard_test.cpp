@@ -125,7 +125,7 @@ class Wireguard : public testing::Test {
   void SetUp() override {
     if (!tunnels_are_permitted()) GTEST_SKIP() << "tunnels need root and /dev/net/tun, which are missing here";
     try {
-      link = std::make_unique<FaultyLink>(wearer_at);
+      link = std::make_unique<FaultyLink>(FaultyLink::Pairing::done, wearer_at);
     } catch (const std::system_error& error) {
       GTEST_SKIP() << "network namespaces are not permitted here: " << error.what();
     }

@@ -80,7 +80,7 @@ TEST_F(LinkFiguresTest, EachPlannedDownAndUpIsToldWhereItIsCounted) {
   TouchEventBuilder builder("0123456789abcdef0123456789abcdef");
   for (std::uint64_t sequence = 1; sequence <= 3 * tap_frames; ++sequence) {
     const Timestamp now = start + 10ms * sequence;
-    const TouchEvent* event = builder.build(planned_touch(sequence), planned_grid, 1, now, now);
+    const TouchEvent* event = builder.build(planned_touch(sequence), 1, now, now);
     ASSERT_NE(event, nullptr);
     ASSERT_EQ(event->sequence, sequence);
     const bool told = std::any_of(event->transitions.begin(), event->transitions.end(),

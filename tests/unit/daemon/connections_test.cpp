@@ -37,9 +37,15 @@ class ConnectionsOfADaemon : public testing::Test {
   // Housekeeping looks once a second.
   bool look() {
     clock.advance(1s);
-    return connections.follow_pairs(now, [this](const ToyConnection& connection, const std::string& why) {
-      ended.push_back(connection.name() + ": " + why);
-    });
+    return connections.follow_pairs(
+        now,
+        [this](const ToyConnection& connection, const std::string& why) {
+          EXPECT_THAT(names(), testing::Contains(connection.name()));
+          ended.push_back(connection.name() + ": " + why);
+        },
+        [this](const ToyConnection& connection) {
+          EXPECT_THAT(names(), testing::Not(testing::Contains(connection.name())));
+        });
   }
   [[nodiscard]] std::vector<std::string> names() const {
     std::vector<std::string> all;
