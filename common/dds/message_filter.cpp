@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "dds/message_filter.hpp"
 
+#include <algorithm>
 #include <cstddef>
 #include <optional>
 
@@ -34,6 +35,7 @@ constexpr std::uint32_t handshake_reader = 0x000201c4;
 
 struct Submessage {
   std::uint8_t kind = 0;
+  std::uint8_t flags = 0;
   Bytes content;
   std::size_t end = 0;  // in the message; the next one's beginning
 };
@@ -48,12 +50,39 @@ std::optional<Submessage> submessage_at(Bytes message, std::size_t at) {
   if (length == 0 && kind != info_ts && kind != pad) return {};
   const std::size_t begin = at + submessage_header;
   if (message.size() - begin < length) return {};
-  return Submessage{kind, message.subspan(begin, length), begin + (length + 3) / 4 * 4};
+  return Submessage{kind, message[at + 1], message.subspan(begin, length), begin + (length + 3) / 4 * 4};
 }
 
 std::uint32_t entity(Bytes bytes) {
   return static_cast<std::uint32_t>(bytes[0]) << 24U | static_cast<std::uint32_t>(bytes[1]) << 16U |
          static_cast<std::uint32_t>(bytes[2]) << 8U | bytes[3];
+}
+
+// RTPS 2.3, 9.4.5.3. With a payload and nothing beside it: inline QoS, or a key alone, would end somebody's presence.
+std::optional<Bytes> payload_of(const Submessage& data) {
+  constexpr std::uint8_t kinds_of_content = 0x0e;
+  constexpr std::uint8_t has_payload = 0x04;
+  constexpr std::size_t header = 20;
+  const bool only_payload = (data.flags & kinds_of_content) == has_payload;
+  const bool usual_header = data.content.size() > header && data.content[2 + (data.flags & 1U ? 0 : 1)] == 16 &&
+                            data.content[2 + (data.flags & 1U ? 1 : 0)] == 0;
+  if (!only_payload || !usual_header) return {};
+  return data.content.subspan(header);
+}
+
+bool is_announcement(const Submessage& submessage) {
+  return submessage.kind == data && submessage.content.size() >= 12 &&
+         entity(submessage.content.subspan(8, 4)) == participant_writer;
+}
+
+bool may_be_plain_data(const Submessage& submessage) {
+  const auto payload = payload_of(submessage);
+  if (!payload) return false;
+  const std::uint32_t reader = entity(submessage.content.subspan(4, 4));
+  const std::uint32_t writer = entity(submessage.content.subspan(8, 4));
+  if (writer == participant_writer && (reader == none || reader == participant_reader))
+    return announcer(*payload).has_value();
+  return writer == handshake_writer && (reader == none || reader == handshake_reader) && is_bounded_handshake(*payload);
 }
 
 bool may_be_plain(const Submessage& submessage) {
@@ -62,13 +91,8 @@ bool may_be_plain(const Submessage& submessage) {
     case info_ts:
     case info_dst:
       return true;
-    case data: {
-      if (submessage.content.size() < 12) return false;
-      const std::uint32_t reader = entity(submessage.content.subspan(4, 4));
-      const std::uint32_t writer = entity(submessage.content.subspan(8, 4));
-      return (writer == participant_writer && (reader == none || reader == participant_reader)) ||
-             (writer == handshake_writer && (reader == none || reader == handshake_reader));
-    }
+    case data:
+      return may_be_plain_data(submessage);
     default:
       return submessage.kind >= first_of_vendors;
   }
@@ -100,6 +124,30 @@ bool may_pass(Bytes message) noexcept {
     } else if (may_be_plain(*submessage)) {
       at = submessage->end;
     } else {
+      return false;
+    }
+  }
+  return true;
+}
+
+bool Announcements::are_as_before(Bytes message) {
+  if (message.size() > message_header && message[message_header] == srtps_prefix) return true;
+  constexpr std::size_t prefix_in_header = 8;
+  for (std::size_t at = message_header; at < message.size();) {
+    const auto submessage = submessage_at(message, at);
+    if (!submessage) return false;
+    at = submessage->end;
+    if (!is_announcement(*submessage)) continue;
+    const auto payload = payload_of(*submessage);
+    const auto of = payload ? announcer(*payload) : std::nullopt;
+    // In another's name.
+    if (!of || !std::equal(of->begin(), of->end(), message.begin() + prefix_in_header)) return false;
+    const std::lock_guard lock(mutex_);
+    const auto known = std::ranges::find(known_, *of, &Known::of);
+    if (known == known_.end()) {
+      if (known_.size() == most_remembered) known_.pop_front();
+      known_.push_back({*of, {payload->begin(), payload->end()}});
+    } else if (!std::ranges::equal(known->payload, *payload)) {
       return false;
     }
   }

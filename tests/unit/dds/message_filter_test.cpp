@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <vector>
 
 namespace telehug {
@@ -21,13 +22,45 @@ Bytes submessage(std::uint8_t kind, const Bytes& content) {
   return joined({{kind, 1, static_cast<std::uint8_t>(content.size()), 0}, content});
 }
 
-// DATA from a writer for a reader, with a payload of 8 bytes.
-Bytes data(const Bytes& reader, const Bytes& writer) {
-  return submessage(0x15, joined({{0, 0, 16, 0}, reader, writer, Bytes(16)}));
+constexpr std::uint8_t payload_only = 5;  // little-endian, D
+
+// DATA from a writer for a reader.
+Bytes data(const Bytes& reader, const Bytes& writer, const Bytes& payload, std::uint8_t flags = payload_only) {
+  Bytes whole = submessage(0x15, joined({{0, 0, 16, 0}, reader, writer, Bytes(8), payload}));
+  whole[1] = flags;
+  return whole;
 }
 
+Bytes message(const std::vector<Bytes>& submessages) {
+  return joined({Bytes(20, 0xaa), joined(submessages)});
+}
 bool passes(const std::vector<Bytes>& submessages) {
-  return may_pass(joined({Bytes(20, 0xaa), joined(submessages)}));
+  return may_pass(message(submessages));
+}
+
+Bytes number(std::uint32_t value) {
+  return {static_cast<std::uint8_t>(value), static_cast<std::uint8_t>(value >> 8U),
+          static_cast<std::uint8_t>(value >> 16U), static_cast<std::uint8_t>(value >> 24U)};
+}
+Bytes text() {
+  return joined({number(4), {'a', 'b', 'c', 0}});
+}
+Bytes parameter(std::uint16_t id, const Bytes& value) {
+  return joined(
+      {{static_cast<std::uint8_t>(id), static_cast<std::uint8_t>(id >> 8U), static_cast<std::uint8_t>(value.size()), 0},
+       value});
+}
+// A token with as many properties, of text and of octets, as it says, or not.
+Bytes token(std::uint32_t properties = 1, std::uint32_t binary_properties = 1) {
+  return joined({text(), number(properties), text(), text(), number(binary_properties), text(), text()});
+}
+const Bytes sentinel{1, 0, 0, 0};
+const Bytes of_itself(12, 0xaa);
+Bytes announcement(const Bytes& of = of_itself, const Bytes& more = parameter(0x1001, token())) {
+  return joined({{0, 3, 0, 0}, parameter(0x50, joined({of, Bytes(4)})), more, sentinel});
+}
+Bytes handshake(std::uint32_t tokens = 1, const Bytes& first = token()) {
+  return joined({{0, 1, 0, 0}, Bytes(96), text(), number(tokens), first});
 }
 
 const Bytes anybody{0, 0, 0, 0};
@@ -47,9 +80,10 @@ TEST(TheFilter, LetsThroughWhatIsEncryptedAsAWhole) {
 }
 
 TEST(TheFilter, LetsThroughWhoIsThereAndTheHandshake) {
-  EXPECT_TRUE(passes({time, data(anybody, participants_writer)}));
-  EXPECT_TRUE(passes({destination, data({0, 1, 0, 0xc7}, participants_writer), submessage(0x80, Bytes(8))}));
-  EXPECT_TRUE(passes({destination, data({0, 2, 1, 0xc4}, handshakes_writer)}));
+  EXPECT_TRUE(passes({time, data(anybody, participants_writer, announcement())}));
+  EXPECT_TRUE(
+      passes({destination, data({0, 1, 0, 0xc7}, participants_writer, announcement()), submessage(0x80, Bytes(8))}));
+  EXPECT_TRUE(passes({destination, data({0, 2, 1, 0xc4}, handshakes_writer, handshake())}));
 }
 
 TEST(TheFilter, LetsThroughKeysThatAreEncrypted) {
@@ -57,12 +91,13 @@ TEST(TheFilter, LetsThroughKeysThatAreEncrypted) {
 }
 
 TEST(TheFilter, RefusesPlainData) {
-  EXPECT_FALSE(passes({data(anybody, touch_writer)}));
-  EXPECT_FALSE(passes({data(touch_reader, touch_writer)}));
-  EXPECT_FALSE(passes({data({0xff, 2, 2, 0xc4}, keys_writer)}));
-  EXPECT_FALSE(passes({time, data(anybody, participants_writer), data(anybody, touch_writer)}));
+  EXPECT_FALSE(passes({data(anybody, touch_writer, Bytes(8))}));
+  EXPECT_FALSE(passes({data(touch_reader, touch_writer, Bytes(8))}));
+  EXPECT_FALSE(passes({data({0xff, 2, 2, 0xc4}, keys_writer, Bytes(8))}));
+  EXPECT_FALSE(
+      passes({time, data(anybody, participants_writer, announcement()), data(anybody, touch_writer, Bytes(8))}));
   // In the name of a writer that may, for a reader that may not.
-  EXPECT_FALSE(passes({data(touch_reader, participants_writer)}));
+  EXPECT_FALSE(passes({data(touch_reader, participants_writer, announcement())}));
 }
 
 TEST(TheFilter, RefusesWhatElseSteersReadersAndWriters) {
@@ -71,28 +106,118 @@ TEST(TheFilter, RefusesWhatElseSteersReadersAndWriters) {
 }
 
 TEST(TheFilter, RefusesPlainDataBehindOrWithinWhatIsEncrypted) {
-  EXPECT_FALSE(passes({prefix, body, postfix, data(anybody, touch_writer)}));
-  EXPECT_FALSE(passes({prefix, data(anybody, touch_writer), postfix}));
+  EXPECT_FALSE(passes({prefix, body, postfix, data(anybody, touch_writer, Bytes(8))}));
+  EXPECT_FALSE(passes({prefix, data(anybody, touch_writer, Bytes(8)), postfix}));
   EXPECT_FALSE(passes({prefix, body}));
   EXPECT_FALSE(passes({submessage(0x31, Bytes(24)), body, postfix}));
   EXPECT_FALSE(passes({body, postfix}));
 }
 
 TEST(TheFilter, RefusesLengthsThatMeanUntilTheEndOrBeyondIt) {
-  Bytes until_the_end = data(anybody, participants_writer);
+  Bytes until_the_end = data(anybody, participants_writer, announcement());
   until_the_end[2] = 0;
   EXPECT_FALSE(passes({until_the_end}));
-  Bytes beyond = data(anybody, participants_writer);
+  Bytes beyond = data(anybody, participants_writer, announcement());
   beyond[3] = 1;
   EXPECT_FALSE(passes({beyond}));
-  EXPECT_FALSE(passes({{0x80, 1, 0, 0}, data(anybody, touch_writer)}));
-  EXPECT_TRUE(passes({{0x09, 3, 0, 0}, data(anybody, participants_writer)}));  // "no time" has no length
+  EXPECT_FALSE(passes({{0x80, 1, 0, 0}, data(anybody, touch_writer, Bytes(8))}));
+  EXPECT_TRUE(
+      passes({{0x09, 3, 0, 0}, data(anybody, participants_writer, announcement())}));  // "no time" has no length
 }
 
 TEST(TheFilter, RefusesWhatIsNoMessage) {
   EXPECT_FALSE(may_pass({}));
   for (std::size_t size = 0; size <= 23; ++size)
     EXPECT_FALSE(may_pass(Bytes(size, 0x15))) << size;
+}
+
+TEST(TheFilter, LetsNobodyEndAPresence) {
+  for (const std::uint8_t flags : Bytes{1, 3, 7, 9, 11, 13}) {
+    EXPECT_FALSE(passes({data(anybody, participants_writer, announcement(), flags)})) << int{flags};
+    EXPECT_FALSE(passes({data(anybody, handshakes_writer, handshake(), flags)})) << int{flags};
+  }
+  Bytes quality_of_service_later = data(anybody, participants_writer, announcement());
+  quality_of_service_later[4 + 2] = 20;
+  EXPECT_FALSE(passes({quality_of_service_later}));
+}
+
+TEST(TheFilter, RefusesCountsThatExceedWhatIsThere) {
+  const auto announces = [](const Bytes& more) {
+    return passes({data(anybody, participants_writer, announcement(of_itself, more))});
+  };
+  for (const auto id : std::initializer_list<std::uint16_t>{0x1001, 0x1002, 0x1006}) {
+    EXPECT_TRUE(announces(parameter(id, token())));
+    EXPECT_FALSE(announces(parameter(id, token(2))));
+    EXPECT_FALSE(announces(parameter(id, token(1, 0x40000000))));
+    EXPECT_FALSE(announces(parameter(id, token(0xffffffff))));
+  }
+  EXPECT_TRUE(announces(parameter(0x59, joined({number(1), text(), text()}))));
+  EXPECT_FALSE(announces(parameter(0x59, joined({number(0x10000000), text(), text()}))));
+  EXPECT_TRUE(announces(parameter(0x1234, number(0xffffffff))));  // of no count
+  const auto shakes = [](const Bytes& payload) { return passes({data(anybody, handshakes_writer, payload)}); };
+  EXPECT_TRUE(shakes(handshake()));
+  EXPECT_FALSE(shakes(handshake(2)));
+  EXPECT_FALSE(shakes(handshake(0x20000000)));
+  EXPECT_FALSE(shakes(handshake(1, token(3))));
+}
+
+TEST(TheFilter, RefusesAnnouncementsThatEndTooEarlyOrTellNotWhose) {
+  const Bytes whole = announcement();
+  for (std::size_t size = 0; size < whole.size() - 3; ++size)
+    EXPECT_FALSE(passes(
+        {data(anybody, participants_writer, Bytes(whole.begin(), whole.begin() + static_cast<std::ptrdiff_t>(size)))}))
+        << size;
+  EXPECT_FALSE(passes({data(anybody, participants_writer, joined({{0, 3, 0, 0}, sentinel}))}));
+  EXPECT_FALSE(passes({data(anybody, participants_writer, announcement(of_itself, parameter(0x50, Bytes(16))))}))
+      << "of two at once";
+  Bytes unknown_form = announcement();
+  unknown_form[1] = 1;
+  EXPECT_FALSE(passes({data(anybody, participants_writer, unknown_form)}));
+}
+
+TEST(TheFilter, ReadsBigEndianPayloadsAsWell) {
+  const Bytes guid = joined({{0, 0x50, 0, 16}, of_itself, Bytes(4)});
+  const Bytes end{0, 1, 0, 0};
+  const Bytes two{0x10, 0x01, 0, 12, 0, 0, 0, 0, 0, 0, 0, 2, 0, 0, 0, 0};
+  const Bytes none{0x10, 0x01, 0, 12, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0};
+  EXPECT_TRUE(passes({data(anybody, participants_writer, joined({{0, 2, 0, 0}, guid, none, end}))}));
+  EXPECT_FALSE(passes({data(anybody, participants_writer, joined({{0, 2, 0, 0}, guid, two, end}))}));
+}
+
+TEST(AnAnnouncement, IsRefusedIfItDiffersFromTheFirstInThatName) {
+  Announcements announcements;
+  const auto says = [&](const Bytes& more, std::uint8_t sender = 0xaa) {
+    const Bytes of(12, sender);
+    Bytes whole = message({data(anybody, participants_writer, announcement(of, more))});
+    std::fill_n(whole.begin() + 8, 12, sender);
+    EXPECT_TRUE(may_pass(whole));
+    return announcements.are_as_before(whole);
+  };
+  EXPECT_TRUE(says(parameter(0x31, Bytes(24, 1))));
+  EXPECT_TRUE(says(parameter(0x31, Bytes(24, 1))));
+  EXPECT_FALSE(says(parameter(0x31, Bytes(24, 2))));
+  EXPECT_TRUE(says(parameter(0x31, Bytes(24, 2)), 0xbb));
+  EXPECT_TRUE(says(parameter(0x31, Bytes(24, 1))));
+}
+
+TEST(AnAnnouncement, IsRefusedInAnothersName) {
+  Announcements announcements;
+  EXPECT_FALSE(
+      announcements.are_as_before(message({data(anybody, participants_writer, announcement(Bytes(12, 0xbb)))})));
+}
+
+TEST(AnAnnouncement, IsRememberedInAFloodOfFewerThanThereIsRoomFor) {
+  Announcements announcements;
+  const auto announced_by = [&](std::uint32_t sender, const Bytes& more) {
+    const Bytes of = joined({number(sender), Bytes(8)});
+    Bytes whole = message({data(anybody, participants_writer, announcement(of, more))});
+    std::copy(of.begin(), of.end(), whole.begin() + 8);
+    return announcements.are_as_before(whole);
+  };
+  EXPECT_TRUE(announced_by(0, {}));
+  for (std::uint32_t other = 1; other < Announcements::most_remembered; ++other)
+    EXPECT_TRUE(announced_by(other, {}));
+  EXPECT_FALSE(announced_by(0, parameter(0x31, Bytes(24))));
 }
 
 }  // namespace
