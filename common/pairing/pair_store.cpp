@@ -6,6 +6,8 @@
 #include <fstream>
 #include <stdexcept>
 
+#include "common/outside_json.hpp"
+#include "common/printable.hpp"
 #include "pairing/armour.hpp"
 #include "pairing/authority.hpp"
 #include "pairing/pair_files.hpp"
@@ -22,6 +24,7 @@ namespace fs = std::filesystem;
 
 constexpr auto pair_lives = std::chrono::hours(24 * 365);
 constexpr auto clocks_differ = std::chrono::hours(24);  // two PCs' clocks, at most
+constexpr std::int64_t last_time = 253'402'300'799;     // the end of the year 9999
 constexpr std::size_t max_name = 64;
 constexpr std::size_t max_pairs = 100;
 
@@ -30,18 +33,24 @@ bool is_id(const std::string& text) {
 }
 
 bool is_name(const std::string& text) {
-  const auto control = [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7F; };
-  return !text.empty() && text.size() <= max_name && std::none_of(text.begin(), text.end(), control);
+  return !text.empty() && text.size() <= max_name && printable(text);
 }
 
 Error bad_name(const std::string& whose) {
-  return {fmt::format("{} has 1 to {} bytes and no control characters: choose another one", whose, max_name)};
+  return {fmt::format("{} has 1 to {} bytes of UTF-8 without control characters: choose another one", whose, max_name)};
 }
 
 // Empty if it is absent or no text.
 std::string text_in(const Json& json, const char* name) {
   const auto found = json.find(name);
   return found != json.end() && found->is_string() ? found->get<std::string>() : "";
+}
+
+// Nothing if it is absent or no time that a calendar knows.
+std::optional<WallTime> time_in(const Json& json, const char* name) {
+  const auto found = json.find(name);
+  if (found == json.end() || !found->is_number_unsigned() || *found > last_time) return {};
+  return WallTime(std::chrono::seconds(found->get<std::int64_t>()));
 }
 
 // What both PCs know and whoever sat between them would have had to replace.
@@ -75,23 +84,17 @@ std::optional<Pair> read_pair(const fs::path& folder, Side side) {
   const fs::path file = folder / "pair.json";
   std::error_code none;
   if (fs::status(file, none).type() == fs::file_type::not_found) return {};
-  const Json about = Json::parse(read_secret(file), nullptr, false);
+  const Json about = parse_outside_json(read_secret(file));
   const std::string id = folder.filename().string();
-  if (!about.is_object() || text_in(about, "id") != id || !about.contains("expires") ||
-      !about["expires"].is_number_integer()) {
+  const auto expires = time_in(about, "expires");
+  if (text_in(about, "id") != id || !expires) {
     throw std::runtime_error(
         fmt::format("{} is damaged or can't be read by this user: run as the user who made the pair, or `telehug pair "
                     "revoke {}` and "
                     "pair the two PCs again",
                     file.string(), id));
   }
-  return Pair{id,
-              text_in(about, "name"),
-              side,
-              partition_of(id),
-              WallTime(std::chrono::seconds(about["expires"].get<std::int64_t>())),
-              text_in(about, "phrase"),
-              files_in(folder)};
+  return Pair{id, text_in(about, "name"), side, partition_of(id), *expires, text_in(about, "phrase"), files_in(folder)};
 }
 
 }  // namespace
@@ -128,9 +131,9 @@ Result<PairStore::Granted> PairStore::grant(const std::string& request, const st
   if (!is_name(parents_name)) return bad_name("the name in the request");
   const auto parents_key = read_signing_request(text_in(*asked, "request"));
   if (!parents_key) return Error{"the request is refused: " + parents_key.error().message};
-  if (list().size() >= max_pairs)
-    return Error{fmt::format("this PC has {} pairs already: revoke one (`telehug pair list`)", max_pairs)};
   try {
+    if (list().size() >= max_pairs)
+      return Error{fmt::format("this PC has {} pairs already: revoke one (`telehug pair list`)", max_pairs)};
     make_secret_folder(folder_);
     const std::string id = random_hex(8);
     const std::string partition = partition_of(id);

@@ -29,6 +29,10 @@ class Inspection {
     const auto own = certificate(pair_.files.certificate);
     const auto permissions_ca = certificate(pair_.files.permissions_ca);
     inspect_key(own.get());
+    if (own) inspect_end(validity_of(own.get()).until);
+    for (const auto& [authority, file] : {std::pair(identity_ca.get(), pair_.files.identity_ca),
+                                          std::pair(permissions_ca.get(), pair_.files.permissions_ca)})
+      if (authority != nullptr && !signs_itself(authority)) add(file, "it is not signed with its own key.", pair_again);
     if (identity_ca && own && !issued_by(own.get(), identity_ca.get()))
       add(pair_.files.certificate, "it was not issued by the pair's identity authority.", pair_again);
     if (permissions_ca && own) inspect_documents(own.get(), permissions_ca.get());
@@ -70,6 +74,15 @@ class Inspection {
     if (stat(file.c_str(), &about) == 0 && (about.st_mode & 077U) != 0) {
       add(file, "other users can read it.", fmt::format("chmod 600 {}", file.string()));
     }
+  }
+
+  // By it a running daemon knows when the pair is over.
+  void inspect_end(WallTime end) {
+    if (pair_.expires != end)
+      add(pair_.files.certificate.parent_path() / "pair.json",
+          fmt::format("it says that the pair ends on {}, and the certificate ends on {}.", date(pair_.expires),
+                      date(end)),
+          pair_again);
   }
 
   void inspect_documents(X509* own, X509* permissions_ca) {
