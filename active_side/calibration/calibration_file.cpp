@@ -14,6 +14,7 @@
 #include <variant>
 
 #include "calibration/calibration_reader.hpp"
+#include "files/text_file.hpp"
 
 namespace telehug {
 namespace fs = std::filesystem;
@@ -103,12 +104,13 @@ Status write_whole(int descriptor, std::string_view text) {
 
 Result<Calibration> read_calibration(const fs::path& path) {
   try {
-    const toml::table table = toml::parse_file(path.string());
+    const auto text = read_text_file(path);
+    if (!text) {
+      return Error{fmt::format("{}: {}; calibrate, or name another file", path.string(), text.error().message)};
+    }
+    const toml::table table = toml::parse(*text, path.string());
     return CalibrationReader(table, path).read();
   } catch (const toml::parse_error& error) {
-    if (error.source().begin.line == 0) {
-      return Error{fmt::format("{}: the calibration can't be read; calibrate, or name another file", path.string())};
-    }
     return Error{fmt::format("{}:{}: {}", path.string(), error.source().begin.line, error.description())};
   }
 }

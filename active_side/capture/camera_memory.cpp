@@ -7,6 +7,8 @@
 #include <fstream>
 #include <limits>
 
+#include "files/text_file.hpp"
+
 namespace telehug {
 namespace {
 
@@ -29,7 +31,9 @@ Result<std::optional<CameraMemory>> read_camera_memory(const std::filesystem::pa
   if (!std::filesystem::exists(path, ignored)) return std::optional<CameraMemory>{};
   const Error unreadable{path.string() + " holds no settings of a camera; delete it"};
   try {
-    const toml::table table = toml::parse_file(path.string());
+    const auto text = read_text_file(path);
+    if (!text) return unreadable;
+    const toml::table table = toml::parse(*text, path.string());
     CameraMemory memory;
     const auto device = table["device"].value<std::string>();
     const toml::array* controls = table["controls"].as_array();

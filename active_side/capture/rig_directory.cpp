@@ -7,11 +7,11 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
-#include <fstream>
 #include <map>
 #include <sstream>
 
 #include "capture/csv_table.hpp"
+#include "files/text_file.hpp"
 
 namespace telehug {
 namespace fs = std::filesystem;
@@ -59,13 +59,15 @@ class RigReader {
  private:
   void read_screen() {
     const fs::path file = rig_.path / "rig.toml";
-    std::ifstream stream(file);
-    if (!stream) {
-      fault(file, 1, "the file can't be read; it holds width_mm, height_mm and resolution of the screen");
+    const auto text = read_text_file(file);
+    if (!text) {
+      fault(
+          file, 1,
+          fmt::format("the file {}; it holds width_mm, height_mm and resolution of the screen", text.error().message));
       return;
     }
     try {
-      const toml::table table = toml::parse(stream, file.string());
+      const toml::table table = toml::parse(*text, file.string());
       rig_.screen.width_mm = length_mm(table, file, "width_mm");
       rig_.screen.height_mm = length_mm(table, file, "height_mm");
       read_resolution(table, file);

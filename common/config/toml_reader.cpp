@@ -5,21 +5,16 @@
 
 #include <toml++/toml.h>
 #include <algorithm>
-#include <cerrno>
-#include <cstring>
-#include <fstream>
 #include <optional>
+
+#include "files/text_file.hpp"
 
 namespace telehug {
 namespace {
 
-// A configuration is a few kB; this keeps a wrong path (a disk, a recording) from filling the memory.
-constexpr std::size_t most_bytes = 1 << 20;
 constexpr int most_syntax_faults = 20;
-// toml++ makes a table of every dot in a key and takes them apart recursively: a line of 100 kB overflows the stack.
-constexpr std::size_t longest_line = 4096;
 
-std::string place(const std::string& file, toml::source_index line) {
+std::string place(const std::string& file, std::size_t line) {
   return fmt::format("{}:{}", file, line);
 }
 
@@ -41,17 +36,6 @@ bool blank_line(std::string& text, toml::source_index number) {
   }
   text.replace(begin, end - begin, end - begin, ' ');
   return true;
-}
-
-// The number of the first line that is too long; 0 if none is.
-toml::source_index too_long_line(std::string_view text) {
-  toml::source_index number = 1;
-  for (std::size_t begin = 0; begin < text.size(); ++number) {
-    const std::size_t end = std::min(text.find('\n', begin), text.size());
-    if (end - begin > longest_line) return number;
-    begin = end + 1;
-  }
-  return 0;
 }
 
 std::optional<toml::table> parse(std::string text, const std::string& name, std::vector<Fault>& faults) {
@@ -100,7 +84,7 @@ void read_section(const std::string& file, std::string_view section, const toml:
 
 void read_toml_text(std::string text, const std::string& name, std::vector<Key>& keys, std::vector<Fault>& faults) {
   if (const auto line = too_long_line(text); line != 0) {
-    faults.push_back({place(name, line), fmt::format("the line is longer than {} bytes", longest_line)});
+    faults.push_back({place(name, line), fmt::format("the line is longer than {} bytes", longest_line_bytes)});
     return;
   }
   const auto document = parse(std::move(text), name, faults);
@@ -121,24 +105,12 @@ void read_toml_text(std::string text, const std::string& name, std::vector<Key>&
 }
 
 void read_toml_file(const std::filesystem::path& file, std::vector<Key>& keys, std::vector<Fault>& faults) {
-  errno = 0;
-  std::ifstream stream(file, std::ios::binary);
-  std::string text;
-  if (stream) {
-    text.resize(most_bytes + 1);
-    stream.read(text.data(), static_cast<std::streamsize>(text.size()));
-    text.resize(static_cast<std::size_t>(stream.gcount()));
-  }
-  // Reaching the end sets failbit and eofbit; anything else is a failure to open or to read.
-  if (!stream.is_open() || stream.bad() || (stream.fail() && !stream.eof())) {
-    faults.push_back({file.string(), fmt::format("can't be read: {}", std::strerror(errno))});
+  auto text = read_text_file(file);
+  if (!text) {
+    faults.push_back({file.string(), text.error().message});
     return;
   }
-  if (text.size() > most_bytes) {
-    faults.push_back({file.string(), "is larger than 1 MiB, so it is no configuration file"});
-    return;
-  }
-  read_toml_text(std::move(text), file.string(), keys, faults);
+  read_toml_text(*std::move(text), file.string(), keys, faults);
 }
 
 }  // namespace telehug

@@ -7,13 +7,15 @@
 
 namespace telehug {
 
-// For the terminal: control characters, which could move its cursor or change its title, become '?'. Texts come from
-// the peer and from devices.
+// For the terminal: control characters, which could move its cursor or change its title, become '?', those of ISO 8859
+// (U+0080 to U+009F) among them. Texts come from the peer and from devices.
 [[nodiscard]] inline std::string plain_text(std::string_view text) {
-  std::string out(text);
-  for (char& c : out) {
+  std::string out;
+  for (const char c : text) {
     const auto byte = static_cast<unsigned char>(c);
-    if (byte < 0x20 || byte == 0x7F) c = '?';
+    const bool second = !out.empty() && out.back() == '\xC2' && byte >= 0x80 && byte < 0xA0;
+    if (second) out.pop_back();
+    out += second || byte < 0x20 || byte == 0x7F ? '?' : c;
   }
   return out;
 }

@@ -2,10 +2,9 @@
 #include "dds/validate.hpp"
 
 #include <algorithm>
-#include <boost/locale/utf.hpp>
 #include <cmath>
-#include <string_view>
 
+#include "common/printable.hpp"
 #include "peer/session_id.hpp"
 
 namespace telehug {
@@ -27,18 +26,6 @@ bool known(Side side) {
 }
 bool known(FeltOutcome outcome) {
   return static_cast<std::uint8_t>(outcome) < felt_outcome_count;
-}
-
-// Texts go to terminals, logs, JSON and web pages: UTF-8 without control characters.
-bool printable(std::string_view text) {
-  using Utf8 = boost::locale::utf::utf_traits<char>;
-  for (const char* at = text.begin(); at != text.end();) {
-    const auto code_point = Utf8::decode(at, text.end());
-    if (!boost::locale::utf::is_valid_codepoint(code_point)) return false;
-    const bool control = code_point < 0x20 || (code_point >= 0x7F && code_point < 0xA0);
-    if (control) return false;
-  }
-  return true;
 }
 
 // PEM and S/MIME.

@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <vector>
 
+#include "common/outside_json.hpp"
+
 namespace telehug {
 namespace {
 
@@ -61,7 +63,9 @@ Result<nlohmann::json> unarmour(const std::string& kind, const std::string& text
                                      static_cast<int>(base64.size()));
   if (length < 0) return broken("it was damaged");
   const auto padding = std::count(base64.end() - 2, base64.end(), '=');
-  auto json = nlohmann::json::parse(bytes.begin(), bytes.begin() + length - padding, nullptr, false);
+  const std::string_view content(reinterpret_cast<const char*>(bytes.data()),
+                                 static_cast<std::size_t>(length - padding));
+  auto json = parse_outside_json(content);
   if (!json.is_object() || json.value("version", nlohmann::json()) != 1)
     return broken("it was damaged, or is of a newer telehug");
   return json;

@@ -41,7 +41,9 @@ struct Validity {
 // The document, if `authority` signed it.
 [[nodiscard]] Result<std::string> read_signed(const std::string& smime, X509* authority);
 
+// By the rules that Fast DDS asks OpenSSL to apply, but for the dates.
 [[nodiscard]] bool issued_by(X509* certificate, X509* authority);
+[[nodiscard]] bool signs_itself(X509* authority);
 [[nodiscard]] bool belongs_to(X509* certificate, EVP_PKEY* key);
 [[nodiscard]] Validity validity_of(const X509* certificate);
 // "CN=...,O=telehug": the form and order that permissions must have (RFC 2253).

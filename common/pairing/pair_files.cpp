@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "common/outside_json.hpp"
 #include "pairing/armour.hpp"
 #include "pairing/certificates.hpp"
 #include "pairing/permissions.hpp"
@@ -16,6 +17,15 @@ namespace fs = std::filesystem;
 namespace {
 
 using Json = nlohmann::json;
+
+constexpr std::int64_t last_time = 253'402'300'799;  // the end of the year 9999
+
+// Nothing if it is absent or no time that a calendar knows.
+std::optional<WallTime> time_in(const Json& json, const char* name) {
+  const auto found = json.find(name);
+  if (found == json.end() || !found->is_number_unsigned() || *found > last_time) return {};
+  return WallTime(std::chrono::seconds(found->get<std::int64_t>()));
+}
 
 // What can't be read is for preflight to name.
 WallTime first_end(const DdsSecurityFiles& files, WallTime end) {
@@ -40,10 +50,10 @@ std::optional<Pair> read_pair(const fs::path& folder, Side side) {
   const fs::path file = folder / "pair.json";
   std::error_code none;
   if (fs::status(file, none).type() == fs::file_type::not_found) return {};
-  const Json about = Json::parse(read_secret(file), nullptr, false);
+  const Json about = parse_outside_json(read_secret(file));
   const std::string id = folder.filename().string();
-  if (!about.is_object() || text_in(about, "id") != id || !about.contains("expires") ||
-      !about["expires"].is_number_integer()) {
+  const auto expires = time_in(about, "expires");
+  if (text_in(about, "id") != id || !expires) {
     throw std::runtime_error(
         fmt::format("{} is damaged or can't be read by this user: run as the user who made the pair, or `telehug pair "
                     "revoke {}` and "
@@ -51,13 +61,8 @@ std::optional<Pair> read_pair(const fs::path& folder, Side side) {
                     file.string(), id));
   }
   const DdsSecurityFiles files = files_in(folder);
-  return Pair{id,
-              text_in(about, "name"),
-              side,
-              partition_of(id),
-              first_end(files, WallTime(std::chrono::seconds(about["expires"].get<std::int64_t>()))),
-              text_in(about, "phrase"),
-              files};
+  return Pair{
+      id, text_in(about, "name"), side, partition_of(id), first_end(files, *expires), text_in(about, "phrase"), files};
 }
 
 Pair present(const Pair& pair) {

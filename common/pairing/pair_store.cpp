@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "common/outside_json.hpp"
+#include "common/printable.hpp"
 #include "pairing/armour.hpp"
 #include "pairing/authority.hpp"
 #include "pairing/pair_files.hpp"
@@ -28,12 +30,11 @@ bool is_id(const std::string& text) {
 }
 
 bool is_name(const std::string& text) {
-  const auto control = [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7F; };
-  return !text.empty() && text.size() <= max_name && std::none_of(text.begin(), text.end(), control);
+  return !text.empty() && text.size() <= max_name && printable(text);
 }
 
 Error bad_name(const std::string& whose) {
-  return {fmt::format("{} has 1 to {} bytes and no control characters: choose another one", whose, max_name)};
+  return {fmt::format("{} has 1 to {} bytes of UTF-8 without control characters: choose another one", whose, max_name)};
 }
 
 // What both PCs know and whoever sat between them would have had to replace. `tunnel`: the public keys of its ends.
@@ -131,9 +132,9 @@ Result<PairStore::Granted> PairStore::grant(const std::string& request, const st
         "the request offers no WireGuard tunnel: the parent's telehug is older; update it, or leave "
         "--wireguard out"};
   const bool tunnelled = has_offer && !(reachable_at.empty() && (*parents_offer)->endpoint.empty());
-  if (list().size() >= max_pairs)
-    return Error{fmt::format("this PC has {} pairs already: revoke one (`telehug pair list`)", max_pairs)};
   try {
+    if (list().size() >= max_pairs)
+      return Error{fmt::format("this PC has {} pairs already: revoke one (`telehug pair list`)", max_pairs)};
     make_secret_folder(folder_);
     const std::string id = random_hex(8);
     const std::string partition = partition_of(id);

@@ -40,6 +40,9 @@ class Inspection {
     const auto own = certificate(pair_.files.certificate, renew_it(pair_));
     const auto permissions_ca = certificate(pair_.files.permissions_ca, pair_again);
     inspect_key(own.get());
+    for (const auto& [authority, file] : {std::pair(identity_ca.get(), pair_.files.identity_ca),
+                                          std::pair(permissions_ca.get(), pair_.files.permissions_ca)})
+      if (authority != nullptr && !signs_itself(authority)) add(file, "it is not signed with its own key.", pair_again);
     if (identity_ca && own && !issued_by(own.get(), identity_ca.get()))
       add(pair_.files.certificate, "it was not issued by the pair's identity authority.", pair_again);
     if (permissions_ca && own) inspect_documents(own.get(), permissions_ca.get());

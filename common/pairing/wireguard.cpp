@@ -13,6 +13,7 @@
 #include <stdexcept>
 #include <string_view>
 
+#include "common/outside_json.hpp"
 #include "pairing/openssl_handles.hpp"
 #include "pairing/secret_files.hpp"
 
@@ -127,7 +128,7 @@ std::string to_text(const TunnelEnd& end) {
 }
 
 std::optional<TunnelEnd> read_tunnel_end(const std::string& text) {
-  const Json json = Json::parse(text, nullptr, false);
+  const Json json = parse_outside_json(text);
   if (!json.is_object() || !json.contains("offer") || !json["offer"].is_object()) return std::nullopt;
   return TunnelEnd{text_in(json, "secret_key"),
                    {text_in(json["offer"], "public_key"), text_in(json["offer"], "endpoint")}};

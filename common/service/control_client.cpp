@@ -12,6 +12,8 @@
 #include <cstring>
 #include <utility>
 
+#include "common/outside_json.hpp"
+
 namespace telehug {
 namespace {
 
@@ -99,8 +101,7 @@ Result<std::optional<nlohmann::json>> ControlClient::next(Duration longest) {
   std::array<char, 65536> chunk;
   for (;;) {
     if (const std::size_t end = received_.find('\n'); end != std::string::npos) {
-      auto json = nlohmann::json::parse(received_.begin(), received_.begin() + static_cast<std::ptrdiff_t>(end),
-                                        nullptr, false);
+      auto json = parse_outside_json(std::string_view(received_).substr(0, end));
       received_.erase(0, end + 1);
       if (!json.is_object()) return Error{"what answers on the socket is not a telehug daemon"};
       return std::optional(std::move(json));

@@ -13,6 +13,7 @@
 #include <thread>
 #include <utility>
 
+#include "common/outside_json.hpp"
 #include "service/control_session.hpp"
 #include "service/control_socket.hpp"
 
@@ -67,7 +68,7 @@ class ControlServer::Service final : public ControlSession::Host {
 
   nlohmann::json answer(const std::string& line, const Caller& caller, ControlSession& session) override {
     ++requests_;
-    const auto request = nlohmann::json::parse(line, nullptr, false);
+    const auto request = parse_outside_json(line);
     if (!request.is_object() || !request.contains("command") || !request["command"].is_string()) {
       ++malformed_requests_;
       return {{"error", "a request is a line of JSON such as {\"command\":\"status\"}"}};

@@ -12,6 +12,8 @@
 #include <map>
 #include <string_view>
 
+#include "files/text_file.hpp"
+
 namespace telehug {
 namespace {
 
@@ -265,7 +267,9 @@ Result<JacketProfile> load_jacket_profile(const std::filesystem::path& path) {
     return Error{fmt::format("{}: there is no such jacket profile; see deploy/jackets for the shipped ones", file)};
   }
   try {
-    return read_profile(toml::parse_file(file), file);
+    const auto text = read_text_file(path);
+    if (!text) return Error{fmt::format("{}: {}", file, text.error().message)};
+    return read_profile(toml::parse(*text, file), file);
   } catch (const toml::parse_error& error) {
     return Error{fmt::format("{}:{}: not valid TOML: {}", file, error.source().begin.line, error.description())};
   }

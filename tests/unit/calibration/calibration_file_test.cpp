@@ -120,6 +120,15 @@ TEST_F(CalibrationFile, SaysThatThereIsNone) {
   EXPECT_THAT(fault(), HasSubstr("can't be read"));
 }
 
+// toml++ takes tables within tables apart recursively.
+TEST_F(CalibrationFile, IsRefusedWithALineOfAHundredThousandTables) {
+  std::string key = "a";
+  for (int i = 0; i < 100'000; ++i)
+    key += ".a";
+  std::ofstream(file_) << "version = 1\n" << key << " = 1\n";
+  EXPECT_THAT(fault(), HasSubstr("line 2 is longer"));
+}
+
 TEST_F(CalibrationFile, TellsTheLineOfATextThatIsNoToml) {
   std::ofstream(file_) << "version = 1\ncamera = \n";
   EXPECT_THAT(fault(), HasSubstr("rig.toml:2: "));

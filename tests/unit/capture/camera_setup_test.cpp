@@ -170,6 +170,10 @@ TEST_F(ACamerasSetup, ChangesNothingThatItCouldNotPutBack) {
 }
 
 TEST_F(ACamerasSetup, RefusesAFileThatHoldsSomethingElse) {
+  std::string deep = "a";  // toml++ takes tables within tables apart recursively
+  for (int i = 0; i < 100'000; ++i)
+    deep += ".a";
+  EXPECT_FALSE(read_camera_memory(folder_.write("deep.toml", deep + " = 1")));
   for (const char* text : {"device = 3", "device = \"x\"\ncontrols = [[1]]", "controls = [[1, 2]]", "][",
                            "device = \"x\"\ncontrols = [[-1, 2]]", "device = \"x\"\ncontrols = [[1, 99999999999]]"}) {
     const auto path = folder_.write("broken.toml", text);

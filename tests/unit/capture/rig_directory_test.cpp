@@ -93,6 +93,15 @@ TEST(RigDirectory, NamesFileAndLineOfEveryFaultInTheScreen) {
   EXPECT_THAT(fault_of(folder), AllOf(HasSubstr("rig.toml:1: height_mm"), HasSubstr("rig.toml:1: resolution")));
 }
 
+TEST(RigDirectory, RefusesALineOfAHundredThousandTablesOfTheScreen) {
+  const TemporaryFolder folder;
+  std::string key = "a";  // toml++ takes tables within tables apart recursively
+  for (int i = 0; i < 100'000; ++i)
+    key += ".a";
+  folder.write("rig.toml", key + " = 1\n");
+  EXPECT_THAT(fault_of(folder), HasSubstr("line 1 is longer"));
+}
+
 TEST(RigDirectory, SaysThatTheScreensFileIsMissing) {
   const TemporaryFolder folder;
   EXPECT_THAT(fault_of(folder), HasSubstr("rig.toml:1: the file can't be read"));

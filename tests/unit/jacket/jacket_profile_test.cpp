@@ -155,6 +155,14 @@ TEST_F(JacketProfileTest, says_where_a_file_is_no_toml) {
   EXPECT_THAT(faults("version = 1\nname = \n"), ElementsAre(HasSubstr("jacket.toml:2: not valid TOML")));
 }
 
+// toml++ takes tables within tables apart recursively.
+TEST_F(JacketProfileTest, refuses_a_line_of_a_hundred_thousand_tables) {
+  std::string key = "a";
+  for (int i = 0; i < 100'000; ++i)
+    key += ".a";
+  EXPECT_THAT(faults("version = 1\n" + key + " = 1"), ElementsAre(HasSubstr("line 2 is longer")));
+}
+
 TEST_F(JacketProfileTest, says_that_a_file_is_not_there) {
   const auto loaded = load_jacket_profile(folder_ / "none.toml");
   ASSERT_FALSE(loaded);

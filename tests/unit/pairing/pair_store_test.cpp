@@ -5,6 +5,7 @@
 
 #include <fstream>
 #include <iterator>
+#include <limits>
 
 #include "doubles/temporary_folder.hpp"
 #include "pairing/armour.hpp"
@@ -139,6 +140,18 @@ TEST_F(Pairs, RefuseTextsThatAreDamagedOrAreSomethingElse) {
   EXPECT_FALSE(wearer.grant("", "Mia", now));
 }
 
+// A JSON value is copied recursively.
+TEST_F(Pairs, RefuseTextsThatAreNestedDeeply) {
+  const std::string brackets = std::string(20'000, '[') + std::string(20'000, ']');
+  // Its dump is recursive, too: so the text is put together by hand.
+  const std::string json = "{\"version\":" + brackets + "}";
+  std::vector<unsigned char> base64(4 * ((json.size() + 2) / 3) + 1);
+  EVP_EncodeBlock(base64.data(), reinterpret_cast<const unsigned char*>(json.data()), static_cast<int>(json.size()));
+  const std::string text = "-----BEGIN TELEHUG request-----" + std::string(base64.begin(), base64.end() - 1) +
+                           "-----END TELEHUG request-----";
+  EXPECT_THAT(unarmour("request", text).error().message, HasSubstr("damaged"));
+}
+
 TEST_F(Pairs, RefuseAGrantThatAnswersAnotherRequest) {
   const auto granted = wearer.grant(parent.request("Grandma").value(), "Mia", now).value();
   (void)parent.request("Grandma").value();
@@ -210,7 +223,11 @@ TEST_F(Pairs, HaveNamesThatCanBeShown) {
   EXPECT_FALSE(parent.request(""));
   EXPECT_FALSE(parent.request("Grand\nma"));
   EXPECT_FALSE(parent.request(std::string(65, 'a')));
+  EXPECT_FALSE(parent.request("Grand\xC2\x85ma"));
+  EXPECT_FALSE(parent.request("Gro\xDFmama"));  // ISO 8859, which JSON can't hold
   EXPECT_TRUE(parent.request("Großmama"));
+  EXPECT_FALSE(wearer.grant(parent.request("Grandma").value(), "Zo\xEB", now));
+  EXPECT_TRUE(wearer.list().empty());
 }
 
 TEST_F(Pairs, ThatAreRevokedLeaveNothingBehindAndCantBeUsedAgain) {
@@ -277,6 +294,41 @@ TEST_F(Pairs, WhoseSignedDocumentsWereChangedAreNamed) {
   const PairingFault fault = only_fault(parent, pair);
   EXPECT_EQ(fault.file, pair.files.permissions);
   EXPECT_THAT(fault.what, HasSubstr("changed afterwards"));
+}
+
+TEST_F(Pairs, EndNoLaterThanTheirCertificatesWhateverTheirFileSays) {
+  const Pair pair = pair_up(parent, wearer).parent;
+  const fs::path file = folder / "parent" / pair.id / "pair.json";
+  auto about = nlohmann::json::parse(content(file));
+  const std::int64_t end = about["expires"];
+  about["expires"] = end + 1;
+  overwrite(file, about.dump());
+  EXPECT_EQ(parent.list().at(0).expires, pair.expires);
+  about["expires"] = end - 1;
+  overwrite(file, about.dump());
+  EXPECT_EQ(parent.list().at(0).expires, pair.expires - std::chrono::seconds(1));
+  // What no calendar knows can't even be shown.
+  for (const nlohmann::json& impossible :
+       {nlohmann::json(-1), nlohmann::json(std::numeric_limits<std::int64_t>::max()), nlohmann::json("2027")}) {
+    about["expires"] = impossible;
+    overwrite(file, about.dump());
+    EXPECT_THROW((void)parent.list(), std::runtime_error) << impossible;
+  }
+}
+
+// They hold the keys that are trusted; nobody but themselves signs them.
+TEST_F(Pairs, WhoseAuthoritiesWereChangedAreNamed) {
+  const Pair pair = pair_up(parent, wearer).parent;
+  for (const fs::path& file : {pair.files.identity_ca, pair.files.permissions_ca}) {
+    const std::string whole = content(file);
+    // The signature stands last; 40 characters before the end are within it.
+    std::string changed = whole;
+    char& letter = changed.at(changed.rfind("-----END") - 40);
+    letter = letter == 'A' ? 'B' : 'A';
+    overwrite(file, changed);
+    EXPECT_FALSE(parent.preflight(pair, now).empty()) << file;
+    overwrite(file, whole);
+  }
 }
 
 // A daemon would otherwise go on as if there were no pair.
