@@ -58,16 +58,23 @@ std::uint32_t entity(Bytes bytes) {
          static_cast<std::uint32_t>(bytes[2]) << 8U | bytes[3];
 }
 
-// RTPS 2.3, 9.4.5.3. With a payload and nothing beside it: inline QoS, or a key alone, would end somebody's presence.
+// RTPS 2.3, 9.4.5.3. Nothing of what says something else than its payload does: that may be the end of somebody's
+// presence.
 std::optional<Bytes> payload_of(const Submessage& data) {
-  constexpr std::uint8_t kinds_of_content = 0x0e;
-  constexpr std::uint8_t has_payload = 0x04;
+  constexpr std::uint8_t little_endian = 0x01;
+  constexpr std::uint8_t has_qos = 0x02;
+  constexpr std::uint8_t kinds_of_payload = 0x0c;
+  constexpr std::uint8_t has_data = 0x04;
   constexpr std::size_t header = 20;
-  const bool only_payload = (data.flags & kinds_of_content) == has_payload;
+  const bool only_data = (data.flags & kinds_of_payload) == has_data;
   const bool usual_header = data.content.size() > header && data.content[2 + (data.flags & 1U ? 0 : 1)] == 16 &&
                             data.content[2 + (data.flags & 1U ? 1 : 0)] == 0;
-  if (!only_payload || !usual_header) return {};
-  return data.content.subspan(header);
+  if (!only_data || !usual_header) return {};
+  const Bytes content = data.content.subspan(header);
+  if ((data.flags & has_qos) == 0) return content;
+  const auto end = end_of_harmless_qos(content, (data.flags & little_endian) != 0);
+  if (!end) return {};
+  return content.subspan(*end);
 }
 
 bool is_announcement(const Submessage& submessage) {

@@ -79,6 +79,8 @@ std::optional<bool> is_little_endian(Bytes payload, std::uint8_t big_endian_kind
 // RTPS 2.3, 9.6.2.2.2; DDS Security 1.1, 7.4.1.3.
 enum Parameter : std::uint32_t {
   sentinel = 1,
+  related_sample_identity = 0x83,
+  fast_dds_related_sample_identity = 0x800f,
   participant_guid = 0x50,
   property_list = 0x59,
   identity_token = 0x1001,
@@ -87,6 +89,17 @@ enum Parameter : std::uint32_t {
 };
 
 }  // namespace
+
+std::optional<std::size_t> end_of_harmless_qos(Bytes content, bool little_endian) noexcept {
+  for (CdrReader in(content, 0, little_endian); in.intact();) {
+    const std::uint32_t parameter = in.u16();
+    const std::uint32_t length = in.u16();
+    if (in.intact() && parameter == sentinel) return in.at();
+    if (parameter != related_sample_identity && parameter != fast_dds_related_sample_identity) return {};
+    in.skip(length);
+  }
+  return {};
+}
 
 std::optional<GuidPrefix> announcer(Bytes payload) noexcept {
   constexpr std::uint8_t pl_cdr_be = 2;

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -12,6 +13,12 @@
 namespace telehug {
 
 using GuidPrefix = std::array<std::uint8_t, 12>;
+
+// Where inline QoS (RTPS 2.3, 9.4.2.11) ends that stands at the beginning, if it says nothing but to what the sample is
+// an answer; Fast DDS adds that now and then. Nothing if it says more, such as that somebody has left
+// (PID_STATUS_INFO).
+[[nodiscard]] std::optional<std::size_t> end_of_harmless_qos(std::span<const std::uint8_t> content,
+                                                             bool little_endian) noexcept;
 
 // Of an announcement (SPDP, RTPS 2.3, 9.6.2.2): whose it is. Nothing if it does not say so exactly once, if a length or
 // count in it exceeds what it holds, or if it is no list of parameters.

@@ -132,6 +132,7 @@ TEST(TheFilter, RefusesWhatIsNoMessage) {
 }
 
 TEST(TheFilter, LetsNobodyEndAPresence) {
+  // Without data, or with inline QoS that is none.
   for (const std::uint8_t flags : Bytes{1, 3, 7, 9, 11, 13}) {
     EXPECT_FALSE(passes({data(anybody, participants_writer, announcement(), flags)})) << int{flags};
     EXPECT_FALSE(passes({data(anybody, handshakes_writer, handshake(), flags)})) << int{flags};
@@ -139,6 +140,19 @@ TEST(TheFilter, LetsNobodyEndAPresence) {
   Bytes quality_of_service_later = data(anybody, participants_writer, announcement());
   quality_of_service_later[4 + 2] = 20;
   EXPECT_FALSE(passes({quality_of_service_later}));
+}
+
+TEST(TheFilter, ReadsQualityOfServiceThatStandsBeforeTheData) {
+  const auto with = [](const Bytes& qos) {
+    return passes({data(anybody, participants_writer, joined({qos, announcement()}), payload_only | 2)});
+  };
+  EXPECT_TRUE(with(joined({parameter(0x800f, Bytes(24)), sentinel})));
+  EXPECT_TRUE(with(joined({parameter(0x83, Bytes(24)), sentinel})));
+  const Bytes has_left = parameter(0x71, Bytes{0, 0, 0, 3});
+  EXPECT_FALSE(with(joined({has_left, sentinel})));
+  EXPECT_FALSE(with(joined({parameter(0x800f, Bytes(24)), has_left, sentinel})));
+  EXPECT_FALSE(with(joined({parameter(0x70, Bytes(16)), sentinel})));
+  EXPECT_FALSE(with(parameter(0x800f, Bytes(24))));
 }
 
 TEST(TheFilter, RefusesCountsThatExceedWhatIsThere) {
