@@ -27,12 +27,8 @@ class FilteringTransport final : public transport::ChainingTransport {
 
   void receive(transport::TransportReceiverInterface* receiver, const rtps::octet* message, std::uint32_t size,
                const rtps::Locator_t& here, const rtps::Locator_t& there) override {
-    const std::span<const std::uint8_t> whole(message, size);
-    if (may_pass(whole) && announcements_.are_as_before(whole)) receiver->OnDataReceived(message, size, here, there);
+    if (may_pass({message, size})) receiver->OnDataReceived(message, size, here, there);
   }
-
- private:
-  Announcements announcements_;
 };
 
 struct FilteringDescriptor final : transport::ChainingTransportDescriptor {

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "dds/message_filter.hpp"
 
-#include <algorithm>
 #include <cstddef>
 #include <optional>
+
+#include "dds/plain_payload.hpp"
 
 namespace telehug {
 namespace {
@@ -58,37 +59,29 @@ std::uint32_t entity(Bytes bytes) {
          static_cast<std::uint32_t>(bytes[2]) << 8U | bytes[3];
 }
 
-// RTPS 2.3, 9.4.5.3. Nothing of what says something else than its payload does: that may be the end of somebody's
-// presence.
+// RTPS 2.3, 9.4.5.3: what stands behind the header and the inline QoS, if there is any.
 std::optional<Bytes> payload_of(const Submessage& data) {
   constexpr std::uint8_t little_endian = 0x01;
   constexpr std::uint8_t has_qos = 0x02;
-  constexpr std::uint8_t kinds_of_payload = 0x0c;
-  constexpr std::uint8_t has_data = 0x04;
   constexpr std::size_t header = 20;
-  const bool only_data = (data.flags & kinds_of_payload) == has_data;
   const bool usual_header = data.content.size() > header && data.content[2 + (data.flags & 1U ? 0 : 1)] == 16 &&
                             data.content[2 + (data.flags & 1U ? 1 : 0)] == 0;
-  if (!only_data || !usual_header) return {};
+  if (!usual_header) return {};
   const Bytes content = data.content.subspan(header);
   if ((data.flags & has_qos) == 0) return content;
-  const auto end = end_of_harmless_qos(content, (data.flags & little_endian) != 0);
+  const auto end = end_of_qos(content, (data.flags & little_endian) != 0);
   if (!end) return {};
   return content.subspan(*end);
 }
 
-bool is_announcement(const Submessage& submessage) {
-  return submessage.kind == data && submessage.content.size() >= 12 &&
-         entity(submessage.content.subspan(8, 4)) == participant_writer;
-}
-
 bool may_be_plain_data(const Submessage& submessage) {
+  constexpr std::uint8_t has_data = 0x04;  // otherwise a key alone: somebody leaves
   const auto payload = payload_of(submessage);
   if (!payload) return false;
   const std::uint32_t reader = entity(submessage.content.subspan(4, 4));
   const std::uint32_t writer = entity(submessage.content.subspan(8, 4));
   if (writer == participant_writer && (reader == none || reader == participant_reader))
-    return announcer(*payload).has_value();
+    return (submessage.flags & has_data) == 0 || is_bounded_announcement(*payload);
   return writer == handshake_writer && (reader == none || reader == handshake_reader) && is_bounded_handshake(*payload);
 }
 
@@ -131,30 +124,6 @@ bool may_pass(Bytes message) noexcept {
     } else if (may_be_plain(*submessage)) {
       at = submessage->end;
     } else {
-      return false;
-    }
-  }
-  return true;
-}
-
-bool Announcements::are_as_before(Bytes message) {
-  if (message.size() > message_header && message[message_header] == srtps_prefix) return true;
-  constexpr std::size_t prefix_in_header = 8;
-  for (std::size_t at = message_header; at < message.size();) {
-    const auto submessage = submessage_at(message, at);
-    if (!submessage) return false;
-    at = submessage->end;
-    if (!is_announcement(*submessage)) continue;
-    const auto payload = payload_of(*submessage);
-    const auto of = payload ? announcer(*payload) : std::nullopt;
-    // In another's name.
-    if (!of || !std::equal(of->begin(), of->end(), message.begin() + prefix_in_header)) return false;
-    const std::lock_guard lock(mutex_);
-    const auto known = std::ranges::find(known_, *of, &Known::of);
-    if (known == known_.end()) {
-      if (known_.size() == most_remembered) known_.pop_front();
-      known_.push_back({*of, {payload->begin(), payload->end()}});
-    } else if (!std::ranges::equal(known->payload, *payload)) {
       return false;
     }
   }

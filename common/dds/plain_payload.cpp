@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "dds/plain_payload.hpp"
 
-#include <algorithm>
 #include <cstddef>
 
 namespace telehug {
@@ -79,9 +78,6 @@ std::optional<bool> is_little_endian(Bytes payload, std::uint8_t big_endian_kind
 // RTPS 2.3, 9.6.2.2.2; DDS Security 1.1, 7.4.1.3.
 enum Parameter : std::uint32_t {
   sentinel = 1,
-  related_sample_identity = 0x83,
-  fast_dds_related_sample_identity = 0x800f,
-  participant_guid = 0x50,
   property_list = 0x59,
   identity_token = 0x1001,
   permissions_token = 0x1002,
@@ -90,40 +86,34 @@ enum Parameter : std::uint32_t {
 
 }  // namespace
 
-std::optional<std::size_t> end_of_harmless_qos(Bytes content, bool little_endian) noexcept {
+std::optional<std::size_t> end_of_qos(Bytes content, bool little_endian) noexcept {
   for (CdrReader in(content, 0, little_endian); in.intact();) {
     const std::uint32_t parameter = in.u16();
     const std::uint32_t length = in.u16();
     if (in.intact() && parameter == sentinel) return in.at();
-    if (parameter != related_sample_identity && parameter != fast_dds_related_sample_identity) return {};
     in.skip(length);
   }
   return {};
 }
 
-std::optional<GuidPrefix> announcer(Bytes payload) noexcept {
+bool is_bounded_announcement(Bytes payload) noexcept {
   constexpr std::uint8_t pl_cdr_be = 2;
   const auto little_endian = is_little_endian(payload, pl_cdr_be);
-  if (!little_endian) return {};
-  std::optional<GuidPrefix> whose;
+  if (!little_endian) return false;
   for (CdrReader in(payload, encapsulation, *little_endian); in.intact();) {
     const std::uint32_t parameter = in.u16();
     const std::uint32_t length = in.u16();
-    if (in.intact() && parameter == sentinel) return whose;
+    if (in.intact() && parameter == sentinel) return true;
     const std::size_t begin = in.at();
     in.skip(length);
-    if (!in.intact() || length % 4 != 0) return {};
+    if (!in.intact() || length % 4 != 0) return false;
     CdrReader value(payload.first(in.at()), begin, *little_endian);
     if (parameter == property_list) read_properties(value);
     if (parameter == identity_token || parameter == permissions_token || parameter == identity_status_token)
       read_token(value);
-    if (!value.intact()) return {};
-    if (parameter == participant_guid) {
-      if (whose || length != 16) return {};
-      std::copy_n(payload.begin() + static_cast<std::ptrdiff_t>(begin), whose.emplace().size(), whose->begin());
-    }
+    if (!value.intact()) return false;
   }
-  return {};
+  return false;
 }
 
 bool is_bounded_handshake(Bytes payload) noexcept {

@@ -131,28 +131,23 @@ TEST(TheFilter, RefusesWhatIsNoMessage) {
     EXPECT_FALSE(may_pass(Bytes(size, 0x15))) << size;
 }
 
-TEST(TheFilter, LetsNobodyEndAPresence) {
-  // Without data, or with inline QoS that is none.
-  for (const std::uint8_t flags : Bytes{1, 3, 7, 9, 11, 13}) {
-    EXPECT_FALSE(passes({data(anybody, participants_writer, announcement(), flags)})) << int{flags};
-    EXPECT_FALSE(passes({data(anybody, handshakes_writer, handshake(), flags)})) << int{flags};
-  }
-  Bytes quality_of_service_later = data(anybody, participants_writer, announcement());
-  quality_of_service_later[4 + 2] = 20;
-  EXPECT_FALSE(passes({quality_of_service_later}));
+TEST(TheFilter, FindsTheDataBehindQualityOfService) {
+  const auto with = [](const Bytes& qos, const Bytes& more) {
+    return passes({data(anybody, participants_writer, joined({qos, announcement(of_itself, more)}), payload_only | 2)});
+  };
+  const Bytes qos = joined({parameter(0x800f, Bytes(24)), sentinel});
+  EXPECT_TRUE(with(qos, parameter(0x1001, token())));
+  EXPECT_FALSE(with(qos, parameter(0x1001, token(0x40000000))));
+  EXPECT_FALSE(with(parameter(0x800f, Bytes(24)), parameter(0x1001, token(0x40000000))));
+  Bytes qos_later = data(anybody, participants_writer, announcement());
+  qos_later[4 + 2] = 20;
+  EXPECT_FALSE(passes({qos_later}));
 }
 
-TEST(TheFilter, ReadsQualityOfServiceThatStandsBeforeTheData) {
-  const auto with = [](const Bytes& qos) {
-    return passes({data(anybody, participants_writer, joined({qos, announcement()}), payload_only | 2)});
-  };
-  EXPECT_TRUE(with(joined({parameter(0x800f, Bytes(24)), sentinel})));
-  EXPECT_TRUE(with(joined({parameter(0x83, Bytes(24)), sentinel})));
-  const Bytes has_left = parameter(0x71, Bytes{0, 0, 0, 3});
-  EXPECT_FALSE(with(joined({has_left, sentinel})));
-  EXPECT_FALSE(with(joined({parameter(0x800f, Bytes(24)), has_left, sentinel})));
-  EXPECT_FALSE(with(joined({parameter(0x70, Bytes(16)), sentinel})));
-  EXPECT_FALSE(with(parameter(0x800f, Bytes(24))));
+TEST(TheFilter, LetsSomebodyLeave) {
+  const Bytes key = joined({{0, 3, 0, 0}, parameter(0x70, Bytes(16)), sentinel});
+  const Bytes qos = joined({parameter(0x71, Bytes{0, 0, 0, 3}), sentinel});
+  EXPECT_TRUE(passes({data(anybody, participants_writer, joined({qos, key}), 1 | 2 | 8)}));
 }
 
 TEST(TheFilter, RefusesCountsThatExceedWhatIsThere) {
@@ -175,15 +170,12 @@ TEST(TheFilter, RefusesCountsThatExceedWhatIsThere) {
   EXPECT_FALSE(shakes(handshake(1, token(3))));
 }
 
-TEST(TheFilter, RefusesAnnouncementsThatEndTooEarlyOrTellNotWhose) {
+TEST(TheFilter, RefusesAnnouncementsThatEndTooEarly) {
   const Bytes whole = announcement();
   for (std::size_t size = 0; size < whole.size() - 3; ++size)
     EXPECT_FALSE(passes(
         {data(anybody, participants_writer, Bytes(whole.begin(), whole.begin() + static_cast<std::ptrdiff_t>(size)))}))
         << size;
-  EXPECT_FALSE(passes({data(anybody, participants_writer, joined({{0, 3, 0, 0}, sentinel}))}));
-  EXPECT_FALSE(passes({data(anybody, participants_writer, announcement(of_itself, parameter(0x50, Bytes(16))))}))
-      << "of two at once";
   Bytes unknown_form = announcement();
   unknown_form[1] = 1;
   EXPECT_FALSE(passes({data(anybody, participants_writer, unknown_form)}));
@@ -196,42 +188,6 @@ TEST(TheFilter, ReadsBigEndianPayloadsAsWell) {
   const Bytes none{0x10, 0x01, 0, 12, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0};
   EXPECT_TRUE(passes({data(anybody, participants_writer, joined({{0, 2, 0, 0}, guid, none, end}))}));
   EXPECT_FALSE(passes({data(anybody, participants_writer, joined({{0, 2, 0, 0}, guid, two, end}))}));
-}
-
-TEST(AnAnnouncement, IsRefusedIfItDiffersFromTheFirstInThatName) {
-  Announcements announcements;
-  const auto says = [&](const Bytes& more, std::uint8_t sender = 0xaa) {
-    const Bytes of(12, sender);
-    Bytes whole = message({data(anybody, participants_writer, announcement(of, more))});
-    std::fill_n(whole.begin() + 8, 12, sender);
-    EXPECT_TRUE(may_pass(whole));
-    return announcements.are_as_before(whole);
-  };
-  EXPECT_TRUE(says(parameter(0x31, Bytes(24, 1))));
-  EXPECT_TRUE(says(parameter(0x31, Bytes(24, 1))));
-  EXPECT_FALSE(says(parameter(0x31, Bytes(24, 2))));
-  EXPECT_TRUE(says(parameter(0x31, Bytes(24, 2)), 0xbb));
-  EXPECT_TRUE(says(parameter(0x31, Bytes(24, 1))));
-}
-
-TEST(AnAnnouncement, IsRefusedInAnothersName) {
-  Announcements announcements;
-  EXPECT_FALSE(
-      announcements.are_as_before(message({data(anybody, participants_writer, announcement(Bytes(12, 0xbb)))})));
-}
-
-TEST(AnAnnouncement, IsRememberedInAFloodOfFewerThanThereIsRoomFor) {
-  Announcements announcements;
-  const auto announced_by = [&](std::uint32_t sender, const Bytes& more) {
-    const Bytes of = joined({number(sender), Bytes(8)});
-    Bytes whole = message({data(anybody, participants_writer, announcement(of, more))});
-    std::copy(of.begin(), of.end(), whole.begin() + 8);
-    return announcements.are_as_before(whole);
-  };
-  EXPECT_TRUE(announced_by(0, {}));
-  for (std::uint32_t other = 1; other < Announcements::most_remembered; ++other)
-    EXPECT_TRUE(announced_by(other, {}));
-  EXPECT_FALSE(announced_by(0, parameter(0x31, Bytes(24))));
 }
 
 }  // namespace
