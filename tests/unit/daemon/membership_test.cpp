@@ -93,7 +93,8 @@ TEST_F(AMembership, OfAWearerAreAllThatWereGrantedOrThoseThatAreNamed) {
   const Pair second = pair_with("Dad");
   const auto names = [&] {
     std::set<std::string> all;
-    for (const Membership& member : found().value().members)
+    const Memberships present = found().value();
+    for (const Membership& member : present.members)
       all.insert(member.pair->name);
     return all;
   };
