@@ -2,6 +2,7 @@
 #include "passive_daemon.hpp"
 
 #include <algorithm>
+#include <stdexcept>
 
 #include "daemon/daemon_settings.hpp"
 #include "peer/session_id.hpp"
@@ -54,12 +55,15 @@ PassiveDaemon::~PassiveDaemon() {
 }
 
 std::shared_ptr<ConnectedSender> PassiveDaemon::connect(Membership membership, const Senders::List& others) {
-  SenderNumber number = 0;
-  while (std::ranges::find(others, number, [](const auto& sender) { return sender->number; }) != others.end())
-    ++number;
-  PassivePipeline pipeline(number, profile_, safety_, turn_, std::chrono::milliseconds(config_.safety.drive_ms),
+  std::vector<SenderNumber> taken;
+  for (const auto& other : others)
+    taken.push_back(other->number);
+  const auto number = free_sender_number(taken);
+  // Where pairs come while others go: the numbers of these are free as soon as the drive thread has let go of them.
+  if (!number) throw std::runtime_error("those that have just ended still take up all places");
+  PassivePipeline pipeline(*number, profile_, safety_, turn_, std::chrono::milliseconds(config_.safety.drive_ms),
                            session_, clock_, metrics_);
-  return std::make_shared<ConnectedSender>(number, std::move(membership), session_,
+  return std::make_shared<ConnectedSender>(*number, std::move(membership), session_,
                                            std::chrono::milliseconds(config_.safety.heartbeat_timeout_ms),
                                            std::move(pipeline), clock_, [this](bool replaced) {
                                              events_received_.add();

@@ -1,13 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
+#include <span>
 
 namespace telehug {
 
 // Those who touch one jacket are told apart by numbers, 0 to max_senders - 1: one for each connection of the daemon.
 inline constexpr std::size_t max_senders = 8;
 using SenderNumber = std::uint8_t;
+
+// The smallest that nobody has; nothing if all are taken.
+[[nodiscard]] inline std::optional<SenderNumber> free_sender_number(std::span<const SenderNumber> taken) noexcept {
+  for (SenderNumber number = 0; number < max_senders; ++number)
+    if (std::ranges::find(taken, number) == taken.end()) return number;
+  return std::nullopt;
+}
 
 }  // namespace telehug

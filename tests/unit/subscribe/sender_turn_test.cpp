@@ -3,10 +3,21 @@
 
 #include <gtest/gtest.h>
 
+#include <vector>
+
 namespace telehug {
 namespace {
 
 const Timestamp start = from_ns(1'000'000'000);
+
+TEST(SenderNumbers, AreFreeAgainWhenTheirSenderIsGoneAndNeverBeyondTheLast) {
+  std::vector<SenderNumber> taken;
+  for (std::size_t i = 0; i < max_senders; ++i)
+    taken.push_back(free_sender_number(taken).value());
+  EXPECT_FALSE(free_sender_number(taken));
+  taken.erase(taken.begin() + 3);
+  EXPECT_EQ(free_sender_number(taken), 3);
+}
 
 TEST(MergedSenders, MayAllTouchAtOnce) {
   SenderTurn turn(false);
