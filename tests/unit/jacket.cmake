@@ -7,5 +7,6 @@ telehug_test(test_jacket KIND unit SUBJECT jacket
     unit/jacket/jacket_profile_test.cpp
     unit/jacket/safety_property_test.cpp
     unit/jacket/safety_stage_test.cpp
+    unit/jacket/several_senders_test.cpp
     unit/jacket/touch_to_drives_test.cpp
   DEPS passive_jacket passive_safety fmt::fmt)
