@@ -18,7 +18,6 @@ class CdrReader {
 
   [[nodiscard]] bool intact() const noexcept { return intact_; }
   [[nodiscard]] std::size_t at() const noexcept { return at_; }
-  [[nodiscard]] std::size_t left() const noexcept { return intact_ ? payload_.size() - at_ : 0; }
 
   std::uint32_t u16() { return number(2); }
   std::uint32_t u32() {
@@ -31,12 +30,6 @@ class CdrReader {
   }
   // A string, or a sequence of octets.
   void octets() { skip(u32()); }
-  // A count of elements of which each takes at least so many bytes.
-  std::uint32_t count(std::size_t least_size) {
-    const std::uint32_t count = u32();
-    intact_ = intact_ && count <= left() / least_size;
-    return intact_ ? count : 0;
-  }
 
  private:
   std::uint32_t number(std::size_t bytes) {
@@ -55,9 +48,9 @@ class CdrReader {
   bool intact_;
 };
 
-// DDS Security 1.1, 7.2.1 to 7.2.3.
+// DDS Security 1.1, 7.2.1 to 7.2.3. A count that exceeds what is there ends at the payload's end, which is a fault.
 void read_properties(CdrReader& in) {
-  for (std::uint32_t left = in.count(8); left > 0 && in.intact(); --left) {
+  for (std::uint32_t left = in.u32(); left > 0 && in.intact(); --left) {
     in.octets();
     in.octets();
   }
@@ -124,7 +117,7 @@ bool is_bounded_handshake(Bytes payload) noexcept {
   CdrReader in(payload, encapsulation, *little_endian);
   in.skip(identities_and_keys);
   in.octets();  // message_class_id
-  for (std::uint32_t tokens = in.count(12); tokens > 0 && in.intact(); --tokens)
+  for (std::uint32_t tokens = in.u32(); tokens > 0 && in.intact(); --tokens)
     read_token(in);
   return in.intact();
 }

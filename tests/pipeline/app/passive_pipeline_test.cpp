@@ -243,6 +243,14 @@ TEST_F(PassivePipelineTest, AllocatesNothingWhileAContactGoesOn) {
   EXPECT_GT(jacket_link.sent(), 200U) << "it was renewed all the time";
 }
 
+TEST_F(PassivePipelineTest, AnswersAContactOfANewSessionThatResemblesOneOfTheOld) {
+  ASSERT_EQ(touch(2).size(), 1U);
+  EXPECT_THAT(touch(2, Phase::move), IsEmpty());
+  session = "00000000000000000000000000000abc";
+  event.sequence = 0;
+  EXPECT_EQ(touch(2, Phase::move).size(), 1U);  // its down was lost long ago
+}
+
 // Another sender to the same jacket.
 class TwoSenders : public PassivePipelineTest {
  protected:

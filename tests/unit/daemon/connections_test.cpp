@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <set>
 #include <stdexcept>
 
 #include "doubles/fake_clock.hpp"
@@ -104,6 +105,17 @@ TEST_F(ConnectionsOfADaemon, BeginWhenAPairIsMadeAndEndTheUnpairedOne) {
   pair_with("Dad");
   EXPECT_TRUE(look());
   EXPECT_THAT(names(), ElementsAre("Grandma", "Dad"));
+}
+
+TEST_F(ConnectionsOfADaemon, ThatAreMadeAtOnceKnowOfEachOther) {
+  start();
+  pair_with("Grandma");
+  pair_with("Dad");
+  EXPECT_TRUE(look());
+  std::set<std::size_t> numbers;
+  for (const auto& connection : connections.all())
+    numbers.insert(connection->number);
+  EXPECT_EQ(numbers.size(), 2U);
 }
 
 TEST_F(ConnectionsOfADaemon, EndWithTheirPairsAndAreDestroyedOnlyWhenThePipelineHasLetGo) {

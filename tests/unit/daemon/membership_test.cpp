@@ -127,6 +127,16 @@ TEST_F(AMembership, AreNoMoreThanADaemonServes) {
   EXPECT_THAT(found().error().message, HasSubstr("at most 8 pairs"));
 }
 
+TEST_F(AMembership, BehindForwardedPortsIsOnlyOne) {
+  const Pair pair = pair_with("Grandma");
+  pair_with("Dad");
+  config.public_address = "198.51.100.7";
+  config.public_port = 7600;
+  EXPECT_THAT(found().error().message, HasSubstr("serve one pair"));
+  config.pairs = pair.id;
+  EXPECT_TRUE(only().dds.public_address);
+}
+
 TEST_F(AMembership, OfABrokenPairAreRefusedAndNotTakenForNone) {
   const Pair pair = pair_with("Grandma");
   std::filesystem::remove(pair.files.governance);

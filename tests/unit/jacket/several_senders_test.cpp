@@ -31,6 +31,13 @@ TEST_F(SafetyStageOfTwo, drives_as_strongly_as_the_strongest_asks_and_never_the_
   EXPECT_EQ(intensity(0), weaker);
 }
 
+TEST_F(SafetyStageOfTwo, drives_as_strongly_as_the_strongest_asks_whichever_of_them_that_is) {
+  drive_by(0, 1, 0.6);
+  const int stronger = intensity(0);
+  drive_by(1, 1, 0.3);
+  EXPECT_EQ(intensity(0), stronger);
+}
+
 TEST_F(SafetyStageOfTwo, falls_back_to_the_weaker_when_the_stronger_drive_ends) {
   drive_by(0, 1, 0.3, 200ms);
   const int weaker = intensity(0);
