@@ -69,9 +69,10 @@ void LinkKeeper::look_at_peer(const PeerState& peer, Timestamp now) {
 }
 
 void LinkKeeper::look_at_strangers(Timestamp now) {
-  static const std::set<std::string> none;
+  static const std::set<std::string> only_loopback{"lo 127.0.0.1"};
   if (!participant_) return;
-  strangers_.look(participant_->stranger(), participant_->refusals(), addresses_ ? addresses_->addresses() : none, now);
+  strangers_.look(participant_->stranger(), participant_->refusals(),
+                  addresses_ ? addresses_->addresses() : only_loopback, now);
 }
 
 void LinkKeeper::look_at_memory(Timestamp now) {

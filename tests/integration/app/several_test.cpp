@@ -114,6 +114,19 @@ TEST_F(TwoParents, LoseOnlyTheOneWhosePairIsRevokedAndTheirStopStays) {
   EXPECT_EQ(home.status(Side::passive)["pair"]["name"], "Grandma");
 }
 
+// They try to shake hands with each other, in vain.
+TEST(TwoPairsOfOneDaemon, AreNoStrangersToEachOther) {
+  RunningPair home;
+  pair_up(home.pairs(Side::active), "Grandma", home.pairs(Side::passive), "Mia");
+  const RunningPair dads;
+  pair_up(dads.pairs(Side::active), "Dad", home.pairs(Side::passive), "Mia");
+  home.start_jacket();
+  home.start_passive();
+  ASSERT_TRUE(eventually([&] { return home.counter(Side::passive, "peers_refused") > 0; })) << home.logs();
+  EXPECT_TRUE(eventually([&] { return home.complains(Side::passive, "no peer is connected"); })) << home.logs();
+  EXPECT_FALSE(home.complains(Side::passive, "tried to connect")) << home.logs();
+}
+
 TEST(TwoChildren, AreBothTouchedByOneParentAndStopForThemselves) {
   RunningPair mias;
   Neighbour pauls{mias};
