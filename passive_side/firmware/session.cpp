@@ -129,6 +129,7 @@ void on_status(const Frame& frame) {
   telemetry[6] = watchdog::reset_cause();
   telemetry[7] = motors::armed() ? 1 : 0;
   put_u16(telemetry + 8, motors::running());
+  put_u16(telemetry + 10, 0);  // the supply is not measured
   answer(FrameType::telemetry, frame.sequence, telemetry, sizeof telemetry);
 }
 

@@ -79,7 +79,7 @@ std::optional<protocol::Caps> parse_caps(const Frame& frame) {
 std::optional<protocol::Telemetry> parse_telemetry(const Frame& frame) {
   const std::span<const std::uint8_t> p(frame.payload.data(), frame.payload.size());
   if (frame.type != protocol::FrameType::telemetry || p.size() != protocol::telemetry_bytes) return std::nullopt;
-  return protocol::Telemetry{u16_at(p, 0), u16_at(p, 2), u16_at(p, 4), p[6], p[7], u16_at(p, 8)};
+  return protocol::Telemetry{u16_at(p, 0), u16_at(p, 2), u16_at(p, 4), p[6], p[7], u16_at(p, 8), u16_at(p, 10)};
 }
 
 }  // namespace telehug

@@ -3,9 +3,11 @@
 
 #include <boost/container/static_vector.hpp>
 #include <cstdint>
+#include <optional>
 #include <string>
 
 #include "common/clock.hpp"
+#include "link/protocol.hpp"
 
 namespace telehug {
 
@@ -16,7 +18,30 @@ struct MotorCommand {
   Duration duration{};         // clamped to 250 ms by the microcontroller
 };
 
-using MotorCommands = boost::container::static_vector<MotorCommand, 16>;
+using MotorCommands = boost::container::static_vector<MotorCommand, protocol::motor_count>;
+
+// Likewise of a heater: how warm the microcontroller is to keep it, by its own sensor and its own rules.
+struct HeaterCommand {
+  std::uint8_t heater = 0;  // of the microcontroller, 0..1
+  double celsius = 0;       // at most 40; 0: off
+  Duration duration{};      // clamped to 250 ms by the microcontroller
+};
+
+using HeaterCommands = boost::container::static_vector<HeaterCommand, protocol::heater_count>;
+
+// What the microcontroller last told of itself.
+struct JacketTelemetry {
+  Timestamp heard;
+  double supply_volts = 0;
+  std::uint8_t reset_cause = 0;  // MCUSR
+  std::uint16_t frames_malformed = 0;
+  std::uint16_t bytes_overrun = 0;
+  struct Heater {
+    std::optional<double> celsius;  // empty: no valid reading
+    protocol::HeaterFault fault = protocol::HeaterFault::none;
+  };
+  boost::container::static_vector<Heater, protocol::heater_count> heaters;
+};
 
 enum class LinkState { absent, connecting, armed };
 
@@ -26,6 +51,8 @@ struct LinkStatus {
   std::string problem;       // one sentence; empty when armed
   int firmware_version = 0;  // 0: unknown
   int motor_count = 0;
+  int heater_count = 0;
+  std::optional<JacketTelemetry> telemetry{};
   std::uint64_t reconnects = 0;
   std::uint64_t frames_sent = 0;
   std::uint64_t frames_received = 0;
@@ -43,6 +70,9 @@ class JacketLink {
 
   // Sends the newest state; returns false (and forgets it) when the jacket is not armed. Never queues.
   virtual bool send(const MotorCommands& commands, Timestamp now) = 0;
+
+  // Likewise for heaters; other heaters go on as they are. False also where the jacket has none.
+  virtual bool heat(const HeaterCommands&, Timestamp) { return false; }
 
   // Everything off. Sent ahead of all else; repeated by poll() until it has left.
   virtual void stop_all(Timestamp now) = 0;
