@@ -12,6 +12,8 @@ namespace telehug {
 namespace {
 
 constexpr Duration memory_interval = 10s;
+// Between two rounds of housekeeping; shorter than the silence after which the other side gives this one up.
+constexpr Duration shortest_hold_up = 3s;
 
 // Of this program, in bytes; 0 if it is not known.
 std::uint64_t resident_memory() {
@@ -41,10 +43,12 @@ LinkKeeper::LinkKeeper(DdsSettings settings, const Clock& clock)
 void LinkKeeper::serve(const PeerState& peer, const Endpoints& endpoints) {
   const Timestamp now = clock_.now();
   if (addresses_) look_at_network(now);
+  if (served_at_ && now - *served_at_ >= shortest_hold_up) supervisor_.held_up(now);
   look_at_peer(peer, now);
   look_at_strangers(now);
   look_at_memory(now);
   if (const auto cause = supervisor_.due(now)) replace(*cause, endpoints);
+  served_at_ = clock_.now();
 }
 
 nlohmann::json LinkKeeper::status() const {

@@ -70,6 +70,7 @@ class LinkKeeper {
   StrangerNote strangers_;
   std::uint64_t signs_ = 0;  // of peers, seen by the present participant
   Timestamp memory_looked_at_;
+  std::optional<Timestamp> served_at_;
   mutable std::mutex told_mutex_;
   nlohmann::json told_;  // guarded by told_mutex_
 };

@@ -24,6 +24,8 @@ std::string_view sentence(LinkCause cause) noexcept {
       return "the network came";
     case LinkCause::resumed:
       return "this PC was suspended";
+    case LinkCause::held_up:
+      return "this program was held up";
     case LinkCause::peer_silent:
       return "the other side fell silent";
     case LinkCause::peer_restarts:
@@ -47,6 +49,8 @@ void LinkSupervisor::resumed(Timestamp now) noexcept {
 
 void LinkSupervisor::peer_heard(Timestamp now) noexcept {
   heard_at_ = now;
+  // What is heard before may have waited in a buffer all the time.
+  if (running_again_at_ && now - *running_again_at_ >= limits_.after_hold_up) running_again_at_.reset();
   silence_ = Duration::zero();
 }
 
@@ -64,6 +68,7 @@ std::optional<LinkCause> LinkSupervisor::due(Timestamp now) const noexcept {
   }
   if (retry_at_) return now >= *retry_at_ ? std::optional(LinkCause::creation_failed) : std::nullopt;
   if (!made_at_) return LinkCause::first;
+  if (lost_while_held_up(now)) return LinkCause::held_up;
   if (silent_too_long(now)) return LinkCause::peer_silent;
   return leak(now);
 }
@@ -77,6 +82,7 @@ void LinkSupervisor::made(LinkCause cause, Timestamp now) noexcept {
     last_cause_ = cause;
   }
   made_at_ = now;
+  running_again_at_.reset();
   change_.reset();
   retry_at_.reset();
   retry_ = Duration::zero();
@@ -92,6 +98,12 @@ void LinkSupervisor::creation_failed(Timestamp now) noexcept {
 
 bool LinkSupervisor::heard_lately(Timestamp now) const noexcept {
   return heard_at_ && now - *heard_at_ < limits_.heard_within;
+}
+
+// The peer has made a participant of its own anew meanwhile, whose handshake with this old one may be stuck.
+bool LinkSupervisor::lost_while_held_up(Timestamp now) const noexcept {
+  const bool waited = running_again_at_ && now - *running_again_at_ >= limits_.after_hold_up;
+  return waited && heard_at_ && !heard_lately(now);
 }
 
 // A peer that was heard once, or was noticed and never heard: the handshake may be stuck.

@@ -16,6 +16,7 @@ enum class LinkCause {
   addresses_changed,  // of this PC: a participant never adapts to new ones
   network_came,       // likewise, after there had been no network at all
   resumed,            // this PC was suspended
+  held_up,            // this program did not run for a while, and the peer may have given it up meanwhile
   peer_silent,        // DDS Security may wait for ever for a peer that it once dropped
   peer_restarts,      // each restart of the peer leaves memory behind in a participant
   memory_grown,       // likewise, as measured
@@ -28,6 +29,7 @@ struct LinkLimits {
   Duration longest_unrest = 5s;     // changes that never end count as complete after that
   Duration heard_within = 500ms;    // the peer counts as heard for so long
   Duration longest_deferral = 30s;  // of a change, because the peer is heard in spite of it
+  Duration after_hold_up = 1s;      // the peer is heard by then, or it is lost
   Duration first_silence = 4s;      // doubled with each replacement that did not help
   Duration longest_silence = 30s;
   Duration first_retry = 1s;  // of making a participant; doubled likewise
@@ -48,6 +50,7 @@ class LinkSupervisor {
   // What happened. `network`: has this PC an address now?
   void addresses_changed(bool network, Timestamp now) noexcept;
   void resumed(Timestamp now) noexcept;
+  void held_up(Timestamp now) noexcept { running_again_at_ = now; }
   void peer_heard(Timestamp now) noexcept;
   // Somebody was discovered or authenticated: a handshake may be under way, which over a slow way takes seconds, or may
   // have got stuck. Not proof of anything, so it puts a replacement off for no longer than longest_silence.
@@ -74,6 +77,7 @@ class LinkSupervisor {
   };
 
   [[nodiscard]] bool heard_lately(Timestamp now) const noexcept;
+  [[nodiscard]] bool lost_while_held_up(Timestamp now) const noexcept;
   [[nodiscard]] bool silent_too_long(Timestamp now) const noexcept;
   [[nodiscard]] bool change_complete(Timestamp now) const noexcept;
   [[nodiscard]] std::optional<LinkCause> leak(Timestamp now) const noexcept;
@@ -87,7 +91,8 @@ class LinkSupervisor {
   Duration retry_ = Duration::zero();
   std::optional<Timestamp> heard_at_;
   std::optional<Timestamp> noticed_at_;
-  Duration silence_ = Duration::zero();  // the next one that is too long; zero: the first
+  std::optional<Timestamp> running_again_at_;  // until it is known whether the peer is still heard
+  Duration silence_ = Duration::zero();        // the next one that is too long; zero: the first
   std::uint64_t restarts_ = 0;
   std::optional<std::uint64_t> memory_at_first_;
   std::uint64_t memory_ = 0;

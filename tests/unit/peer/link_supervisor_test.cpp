@@ -146,6 +146,32 @@ TEST(LinkSupervisor, ReplacesAfterSuspend) {
   EXPECT_EQ(world.made, (Mades{{LinkCause::first, 0s}, {LinkCause::resumed, 1300ms}}));
 }
 
+TEST(LinkSupervisor, ReplacesAfterAHoldUpUnlessThePeerIsHeardSoon) {
+  World world;
+  world.peer_beats = true;
+  world.pass(10s);
+  world.clock.advance(12s);
+  world.supervisor.held_up(world.clock.now());
+  world.pass(5s);
+  EXPECT_EQ(world.made.size(), 1U) << "the peer went on";
+  world.clock.advance(12s);
+  world.supervisor.held_up(world.clock.now());
+  const Duration awake = world.clock.now() - world.start;
+  world.pass(200ms);  // what had waited in a buffer
+  world.peer_beats = false;
+  world.pass(2s);
+  ASSERT_EQ(world.made.size(), 2U);
+  EXPECT_EQ(world.made[1], (Made{LinkCause::held_up, awake + 1s}));
+}
+
+TEST(LinkSupervisor, KeepsTheParticipantAfterAHoldUpWhileThePeerWasNeverHeard) {
+  World world;
+  world.pass(10s);
+  world.supervisor.held_up(world.clock.now());
+  world.pass(60s);
+  EXPECT_EQ(world.made.size(), 1U);
+}
+
 TEST(LinkSupervisor, ReplacesEverMoreRarelyWhileThePeerStaysSilent) {
   World world;
   world.peer_beats = true;
@@ -281,7 +307,7 @@ TEST(LinkSupervisor, IsNeverWedgedAndNeverFlapsWhateverHappened) {
   for (int run = 0; run < 400; ++run) {
     World world(below(2) == 0);
     for (unsigned step = 0, steps = 5 + below(60); step < steps; ++step) {
-      switch (below(8)) {
+      switch (below(9)) {
         case 0:
           world.change_addresses(true);
           break;
@@ -302,6 +328,9 @@ TEST(LinkSupervisor, IsNeverWedgedAndNeverFlapsWhateverHappened) {
           break;
         case 6:
           world.supervisor.peer_restarted();
+          break;
+        case 7:
+          world.supervisor.held_up(world.clock.now());
           break;
         default:
           break;
