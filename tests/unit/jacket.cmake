@@ -2,6 +2,7 @@
 telehug_test(test_jacket KIND unit SUBJECT jacket
   SOURCES
     unit/jacket/body_picture_test.cpp
+    unit/jacket/body_svg_test.cpp
     unit/jacket/duemilanove_16_test.cpp
     unit/jacket/intensity_test.cpp
     unit/jacket/jacket_overrides_test.cpp
