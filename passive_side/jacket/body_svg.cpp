@@ -47,10 +47,10 @@ std::string outline() {
       "<ellipse cx='{}' cy='{}' rx='{}' ry='{}'/>\n"
       "<path d='M{} {} L{} {} Q{} {} {} {} L{} {} L{} {} Q{} {} {} {} L{} {}'/>\n"
       "<path d='M{} {} L{} {} M{} {} L{} {}'/>\n",
-      x(0), y(-0.5), 0.38 * px_per_fh, 0.52 * px_per_fh,                                       // head
-      x(-0.25), y(0.1), x(-0.8), y(0.2), x(-1.25), y(0.25), x(-1.3), y(2.2), x(-0.8), y(2.2),  // right arm
-      x(0.8), y(2.2), x(1.3), y(2.2), x(1.25), y(0.25), x(0.25), y(0.1),                       // left arm
-      x(-0.75), y(0.8), x(-0.75), y(2.2), x(0.75), y(0.8), x(0.75), y(2.2));                   // between arms and trunk
+      x(0), y(-0.5), 0.38 * px_per_fh, 0.52 * px_per_fh,                                   // head
+      x(-0.25), y(0.1), x(-0.8), y(0.2), x(-1.25), y(0.25), x(-1.3), y(2.2),               // right shoulder and arm
+      x(-0.8), y(2.2), x(1.3), y(2.2), x(1.25), y(0.25), x(0.8), y(0.2), x(0.25), y(0.1),  // left ones
+      x(-0.75), y(0.8), x(-0.75), y(2.2), x(0.75), y(0.8), x(0.75), y(2.2));               // between arms and trunk
 }
 
 std::string drawn(const Actuator& actuator, bool runs) {
