@@ -85,6 +85,12 @@ struct HugConfig {
   bool notify = true;
 };
 
+struct FeedbackConfig {
+  std::string link;  // empty: none; read it with parse_jacket_link()
+  std::string profile = "ring-1.toml";
+  double strength = 0.6;  // 0..1
+};
+
 struct ActiveConfig {
   CameraConfig camera;
   RigConfig rig;
@@ -94,6 +100,7 @@ struct ActiveConfig {
   SendingConfig sending;
   OverlayConfig overlay;
   HugConfig hug;
+  FeedbackConfig feedback;
   PeerConfig peer;
   int heartbeat_timeout_ms = 250;  // [peer]
   ControlConfig control;
@@ -101,10 +108,10 @@ struct ActiveConfig {
 };
 
 struct JacketConfig {
-  std::string profile;             // empty: see jacket_profile_file()
-  std::string overrides;           // file; empty: none
-  std::string link = "simulated";  // read it with parse_jacket_link()
-  int baud = 0;                    // 0: the profile's
+  std::string profile;                     // empty: see jacket_profile_file()
+  std::string overrides;                   // file; empty: none
+  std::string link = "simulated";          // read it with parse_jacket_link()
+  int baud = 0;                            // 0: the profile's
   std::string several_senders = "merged";  // merged, exclusive
 };
 

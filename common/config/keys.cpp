@@ -240,6 +240,17 @@ std::vector<Key> keys_of(ActiveConfig& c) {
        "",
        {},
        "true: when the other side hugs back the desktop shows a notification, with a sound."},
+
+      {"feedback", "link", &c.feedback.link, "", parsed_by(parse_optional_jacket_link),
+       "A small actuator at the toucher's finger that answers when a touch was felt: as [jacket] link of the passive "
+       "side; empty: none."},
+      {"feedback",
+       "profile",
+       &c.feedback.profile,
+       "",
+       {},
+       "File that describes it, as a jacket profile, or the name of an installed one."},
+      {"feedback", "strength", &c.feedback.strength, "", Range{0.05, 1}, "How strong, of what its profile allows."},
   };
   append(rows, peer_rows(c.peer));
   append(rows, {{"peer", "heartbeat_timeout_ms", &c.heartbeat_timeout_ms, "ms", heartbeat_timeout,

@@ -132,4 +132,11 @@ Result<JacketLinkChoice> parse_jacket_link(std::string_view text) {
       fmt::format("\"{}\" is not a jacket link: it is \"serial:PATH\", \"simulated\" or \"record:FILE\"", text)};
 }
 
+Result<std::optional<JacketLinkChoice>> parse_optional_jacket_link(std::string_view text) {
+  if (text.empty()) return std::optional<JacketLinkChoice>();
+  auto link = parse_jacket_link(text);
+  if (!link) return link.error();
+  return std::optional(*std::move(link));
+}
+
 }  // namespace telehug

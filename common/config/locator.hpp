@@ -62,4 +62,7 @@ struct JacketLinkChoice {
 // "serial:PATH", "simulated" or "record:FILE".
 [[nodiscard]] Result<JacketLinkChoice> parse_jacket_link(std::string_view text);
 
+// Likewise; an empty text is none.
+[[nodiscard]] Result<std::optional<JacketLinkChoice>> parse_optional_jacket_link(std::string_view text);
+
 }  // namespace telehug
