@@ -11,8 +11,9 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "bench/pins/set_log.hpp"
 #include "bench/pins/touching_peer.hpp"
-#include "bench/pins/wire_tap.hpp"
+#include "doubles/wire_between.hpp"
 #include "integration/app/running_pair.hpp"
 #include "unit/jacket/jacket_builders.hpp"
 
@@ -56,7 +57,11 @@ class Bench {
     pair_.start_jacket();
     if (!eventually([&] { return std::filesystem::exists(pair_.folder / "jacket"); }))
       throw std::runtime_error("the simulated jacket does not start: " + pair_.logs());
-    tap_.emplace(pair_.folder / "wire", pair_.folder / "jacket");
+    wire_.emplace(pair_.folder / "wire", pair_.folder / "jacket",
+                  [this](WireBetween::Way way, std::span<const std::uint8_t> bytes, Timestamp time) {
+                    if (way == WireBetween::Way::to_jacket) sets_.note(bytes, time);
+                    return WireBetween::unchanged(way, bytes, time);
+                  });
     pair_.jacket_link = "serial:" + (pair_.folder / "wire").string();
     pair_.passive_settings.push_back("jacket.profile=" TELEHUG_SOURCE "/deploy/jackets/" + options_.profile);
     pair_.start_passive();
@@ -75,7 +80,7 @@ class Bench {
  private:
   // Taps of 100 ms, each on another box, far enough apart that every motor rests before it is touched again.
   void single_taps() {
-    (void)tap_->take();
+    (void)sets_.take();
     (void)peer_->take_answers();
     std::vector<Felt> downs;
     for (int i = 0; i < options_.taps; ++i) {
@@ -90,7 +95,7 @@ class Bench {
       for (const Felt& answer : peer_->take_answers())
         if (answer.phase == Phase::down && answer.outcome == FeltOutcome::driven) downs.push_back(answer);
     }
-    const auto sets = tap_->take();
+    const auto sets = sets_.take();
     const auto pins = pair_.pins();
     std::vector<double> bytes_ms;
     std::vector<double> pin_ms;
@@ -119,7 +124,7 @@ class Bench {
     fmt::print("{} touches/s: ms from arrival to the next SET that carries the motor\n", options_.rate_hz);
     fmt::print("{:>7} {:>9} {:>9} {:>9} {:>9} {:>10} {:>9} {:>9}\n", "s", "p50", "p99", "max", "SETs/s", "memory kB",
                "replaced", "lost");
-    (void)tap_->take();
+    (void)sets_.take();
     (void)peer_->take_answers();
     const SteadyClock clock;
     const Timestamp begun = clock.now();
@@ -158,7 +163,7 @@ class Bench {
   }
 
   void report_window(int window, const std::vector<Felt>& answers, std::vector<double>& all_ms) {
-    const auto sets = tap_->take();
+    const auto sets = sets_.take();
     std::vector<double> ms;
     auto first = sets.begin();
     for (const Felt& answer : answers) {
@@ -199,7 +204,8 @@ class Bench {
 
   Options options_;
   RunningPair pair_;
-  std::optional<WireTap> tap_;
+  SetLog sets_;
+  std::optional<WireBetween> wire_;
   std::optional<TouchingPeer> peer_;
   Report report_;
 };
