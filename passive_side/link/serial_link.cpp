@@ -34,6 +34,13 @@ bool SerialLink::send(const MotorCommands& commands, Timestamp now) {
   return taken && port_;
 }
 
+bool SerialLink::heat(const HeaterCommands& commands, Timestamp now) {
+  const bool taken = session_.heat(commands, now);
+  write(now);
+  refresh_status();
+  return taken && port_;
+}
+
 void SerialLink::stop_all(Timestamp now) {
   session_.stop_all();
   write(now);

@@ -24,6 +24,7 @@ class SerialLink final : public JacketLink {
 
   void poll(Timestamp now) override;
   bool send(const MotorCommands& commands, Timestamp now) override;
+  bool heat(const HeaterCommands& commands, Timestamp now) override;
   void stop_all(Timestamp now) override;
   [[nodiscard]] const LinkStatus& status() const override { return status_; }
 

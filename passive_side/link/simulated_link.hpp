@@ -33,6 +33,7 @@ class SimulatedLink final : public JacketLink {
 
   void poll(Timestamp now) override;
   bool send(const MotorCommands& commands, Timestamp now) override { return serial_.send(commands, now); }
+  bool heat(const HeaterCommands& commands, Timestamp now) override { return serial_.heat(commands, now); }
   void stop_all(Timestamp now) override { serial_.stop_all(now); }
   [[nodiscard]] const LinkStatus& status() const override { return serial_.status(); }
 

@@ -1,6 +1,11 @@
 # SPDX-License-Identifier: Apache-2.0
 telehug_test(test_link KIND unit SUBJECT jacket
-  SOURCES unit/link/frame_codec_test.cpp unit/link/jacket_session_test.cpp unit/link/make_link_test.cpp
+  SOURCES
+    unit/link/frame_codec_test.cpp
+    unit/link/jacket_session_heat_test.cpp
+    unit/link/jacket_session_test.cpp
+    unit/link/jacket_telemetry_test.cpp
+    unit/link/make_link_test.cpp
   DEPS passive_link)
 
 telehug_test(test_firmware KIND unit SUBJECT jacket

@@ -88,6 +88,7 @@ TEST(RecordingLink, WritesEveryCommandWithItsTime) {
   EXPECT_TRUE((*link)->send({{3, 255, 150ms}, {7, 9, 20ms}}, clock.now()));
   clock.advance(1ms);
   EXPECT_TRUE((*link)->send({}, clock.now()));
+  EXPECT_TRUE((*link)->heat({{1, 38.5, 150ms}}, clock.now()));
   (*link)->stop_all(clock.now());
   std::stringstream content;
   content << std::ifstream(file).rdbuf();
@@ -97,6 +98,7 @@ TEST(RecordingLink, WritesEveryCommandWithItsTime) {
             "1000000000,set,3,255,150.000\n"
             "1000000000,set,7,9,20.000\n"
             "1001000000,off,,,\n"
+            "1001000000,heat,1,38.5,150.000\n"
             "1001000000,stop,,,\n");
 }
 
