@@ -36,6 +36,7 @@ Json jacket_json(const std::string& name, const LinkStatus& link, std::span<cons
                  {"running", Json::array()}};
   for (const std::uint8_t id : running)
     jacket["running"].push_back(id);
+  if (!link.answers) jacket["note"] = "it answers nothing: whether it is there, nobody knows";
   if (!link.telemetry) return jacket;
   if (link.telemetry->supply_volts > 0) jacket["supply_v"] = link.telemetry->supply_volts;
   jacket["last_reset"] = reset_cause_text(link.telemetry->reset_cause);

@@ -122,7 +122,11 @@ void PassiveDaemon::tell_watchers() {
                          {"actuators", id_list(change.actuators)}});
   }
   const DriveThreadState now = state();
-  if (now.link.state == LinkState::armed) {
+  if (now.link.state == LinkState::armed && !now.link.answers) {
+    say_jacket_.say(
+        spdlog::level::info,
+        fmt::format("jacket on {}: it answers nothing, so whether it is there is not known", now.link.device));
+  } else if (now.link.state == LinkState::armed) {
     say_jacket_.say(spdlog::level::info, fmt::format("jacket ready: {}, firmware {}, {} motors", now.link.device,
                                                      now.link.firmware_version, now.link.motor_count));
   } else {

@@ -257,7 +257,10 @@ std::vector<Key> keys_of(PassiveConfig& c) {
        {},
        "File that describes the jacket; empty: the installed one of the 16-motor jacket."},
       {"jacket", "link", &c.jacket.link, "", parsed_by(parse_jacket_link),
-       "\"serial:PATH\", \"simulated\" (no jacket needed) or \"record:FILE\" (what would be sent)."},
+       "\"serial:PATH\" (take one of /dev/serial/by-id, which stays the same; \"serial:auto\": the only one there), "
+       "\"rfcomm:ADDRESS\" or \"rfcomm:ADDRESS/CHANNEL\" (Bluetooth; pair it first), \"simulated\" (no jacket needed) "
+       "or "
+       "\"record:FILE\" (what would be sent)."},
       {"jacket", "baud", &c.jacket.baud, "baud", Range{9600, 1000000}, "Speed of the serial line."},
       {"jacket", "several_senders", &c.jacket.several_senders, "", OneOf{{"merged", "exclusive"}},
        "What is felt when several touch at once. merged: all of them, each place as strongly as the strongest of them "

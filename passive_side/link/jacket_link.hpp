@@ -49,6 +49,7 @@ struct LinkStatus {
   LinkState state = LinkState::absent;
   std::string device;        // path or name of what it talks to
   std::string problem;       // one sentence; empty when armed
+  bool answers = true;       // false: a legacy jacket; armed then only means that there is a wire to it
   int firmware_version = 0;  // 0: unknown
   int motor_count = 0;
   int heater_count = 0;  // those with a sensor

@@ -10,6 +10,7 @@
 #include <string>
 
 #include "common/clock.hpp"
+#include "link/conversation.hpp"
 #include "link/drive_pace.hpp"
 #include "link/frame_codec.hpp"
 #include "link/jacket_link.hpp"
@@ -18,7 +19,7 @@ namespace telehug {
 
 // Says hello until the jacket answers, keeps it alive, carries the newest state and nothing older, and starts over when
 // the jacket falls silent or has disarmed itself.
-class JacketSession {
+class JacketSession final : public Conversation {
  public:
   static constexpr Duration hello_interval = 200ms;
   static constexpr Duration hello_patience = 3s;  // then status().problem says that nobody answers; it goes on trying
@@ -28,19 +29,19 @@ class JacketSession {
   static constexpr Duration stop_repeat = 50ms;  // until the jacket acknowledges
 
   // The first frame turns everything off.
-  void connected(Timestamp now);
-  void disconnected();
+  void connected(Timestamp now) override;
+  void disconnected() override;
 
-  void receive(std::span<const std::uint8_t> bytes, Timestamp now);
+  void receive(std::span<const std::uint8_t> bytes, Timestamp now) override;
 
-  bool send(const MotorCommands& commands, Timestamp now);
-  bool heat(const HeaterCommands& commands, Timestamp now);
-  void stop_all();
+  bool send(const MotorCommands& commands, Timestamp now) override;
+  bool heat(const HeaterCommands& commands, Timestamp now) override;
+  void stop_all() override;
 
-  [[nodiscard]] EncodedFrame next_frame(Timestamp now, bool has_backlog);
+  [[nodiscard]] EncodedFrame next_frame(Timestamp now, bool has_backlog) override;
 
   [[nodiscard]] bool armed() const { return phase_ == Phase::armed; }
-  [[nodiscard]] const LinkStatus& status() const { return status_; }
+  [[nodiscard]] const LinkStatus& status() const override { return status_; }
 
  private:
   enum class Phase { closed, greeting, armed };

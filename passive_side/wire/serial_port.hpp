@@ -1,36 +1,40 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <cstdint>
-#include <optional>
-#include <span>
+#include <filesystem>
 #include <string>
 
 #include "common/result.hpp"
+#include "wire/serial_devices.hpp"
+#include "wire/wire_opener.hpp"
 
 namespace telehug {
 
-// A terminal device as a raw wire of bytes, owned by this process alone. Nothing here waits.
-class SerialPort {
+inline constexpr unsigned default_baud = 57600;
+
+// Opens a terminal device as a raw wire, for this process alone. `path` may be a link that stays the same across
+// plugging (/dev/serial/by-id/...).
+[[nodiscard]] Result<Wire> open_serial_port(const std::string& path, unsigned baud);
+
+// A jacket on a serial port (USB, or a Bluetooth tty).
+class SerialOpener final : public WireOpener {
  public:
-  // `path` may be a link that stays the same across plugging (/dev/serial/by-id/...).
-  [[nodiscard]] static Result<SerialPort> open(const std::string& path, unsigned baud);
+  // `path`: of the device, or "auto" for the only one in `by_id`.
+  SerialOpener(std::string path, unsigned baud, std::filesystem::path by_id = serial_devices_folder);
 
-  SerialPort(SerialPort&& other) noexcept;
-  SerialPort& operator=(SerialPort&& other) noexcept;
-  SerialPort(const SerialPort&) = delete;
-  SerialPort& operator=(const SerialPort&) = delete;
-  ~SerialPort();
-
-  // Bytes read or written, 0 if it would have to wait; nothing if the device is gone.
-  [[nodiscard]] std::optional<std::size_t> read(std::span<std::uint8_t> into);
-  [[nodiscard]] std::optional<std::size_t> write(std::span<const std::uint8_t> bytes);
-  // Bytes that the kernel holds and the wire has not taken yet.
-  [[nodiscard]] std::size_t unsent() const;
+  [[nodiscard]] std::optional<Result<Wire>> open(Timestamp now) override;
+  [[nodiscard]] const std::string& device() const override { return device_; }
+  [[nodiscard]] const std::string& progress() const override { return device_; }
+  [[nodiscard]] const std::string& lost_advice() const override { return lost_advice_; }
 
  private:
-  explicit SerialPort(int fd) : fd_(fd) {}
-  int fd_;
+  [[nodiscard]] std::string better_name() const;
+
+  bool any_;  // the only one there is
+  std::string device_;
+  unsigned baud_;
+  std::filesystem::path by_id_;
+  std::string lost_advice_ = "plug the jacket in again";
 };
 
 }  // namespace telehug

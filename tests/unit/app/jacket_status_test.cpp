@@ -46,6 +46,13 @@ TEST(JacketStatus, TellsNothingThatIsNotKnown) {
   EXPECT_FALSE(jacket_json("coat", link, {}).contains("last_reset"));
 }
 
+TEST(JacketStatus, SaysSoWhereNothingCanBeKnown) {
+  EXPECT_FALSE(jacket_json("coat", armed_jacket(), {}).contains("note"));
+  LinkStatus link = armed_jacket();
+  link.answers = false;
+  EXPECT_THAT(jacket_json("coat", link, {})["note"], HasSubstr("nobody knows"));
+}
+
 TEST(JacketStatus, HasNoProblemWithAJacketThatIsWell) {
   Json problems = Json::array();
   add_jacket_problems(problems, armed_jacket());
