@@ -22,6 +22,7 @@ telehug_test(test_wire KIND unit SUBJECT jacket
 
 telehug_test(test_firmware KIND unit SUBJECT jacket
   SOURCES unit/firmware/both_ends_test.cpp unit/firmware/conversation_test.cpp unit/firmware/drives_test.cpp unit/firmware/pin_activity_test.cpp
+          unit/firmware/wire_faults_test.cpp
   DEPS passive_link jacket_simulator)
 target_compile_definitions(test_firmware PRIVATE TELEHUG_FIRMWARE_ELF="${CMAKE_BINARY_DIR}/firmware/telehug-jacket.elf")
 add_dependencies(test_firmware telehug_jacket_firmware)
