@@ -43,7 +43,8 @@ bool read_uuids(sd_bus_message* message, bool& has_serial_port) {
   const char* uuid = nullptr;
   while (sd_bus_message_read(message, "s", &uuid) > 0)
     has_serial_port = has_serial_port || std::string_view(uuid) == serial_port_uuid;
-  return leave(message) && leave(message);
+  if (!leave(message)) return false;
+  return leave(message);
 }
 
 bool read_property(sd_bus_message* message, Properties& properties) {

@@ -17,7 +17,7 @@ static_assert(sizeof(RfcommAddress) == 10, "the kernel refuses a shorter address
 
 // What the kernel makes of the reasons that Bluetooth has (net/bluetooth/lib.c).
 std::string advice(const RfcommPeer& peer, std::uint8_t channel, int error) {
-  const std::string pair = fmt::format(
+  std::string pair = fmt::format(
       "pair the jacket: run `bluetoothctl`, in it `scan on`, `pair {0}` (an HC-05's PIN is 1234) and `trust {0}`",
       address_text(peer));
   switch (error) {

@@ -112,6 +112,29 @@ TEST(SerialLink, ArmsByItselfAgainWhenTheJacketComesBackUnderAnotherTerminal) {
   close(held);
 }
 
+TEST(SerialLink, FindsTheOnlyJacketAgainUnderAnotherName) {
+  const TemporaryFolder folder;
+  std::filesystem::create_directory(folder / "by-id");
+  WireLink link(std::make_unique<SerialOpener>("auto", default_baud, folder / "by-id"),
+                std::make_unique<JacketSession>());
+  auto first = std::make_unique<SimulatorProcess>(std::vector<std::string>{"--link", folder / "by-id/usb-A"});
+  ASSERT_TRUE(poll_until_armed(link)) << link.status().problem;
+  EXPECT_EQ(link.status().device, (folder / "by-id/usb-A").string());
+  // Pulled while frames leave.
+  for (int i = 0; i < 50; ++i)
+    link.stop_all(SteadyClock{}.now());
+  first->end(SIGKILL);
+  ASSERT_TRUE(poll_until(link, [&] { return link.status().state == LinkState::absent; }));
+  std::filesystem::remove(folder / "by-id/usb-A");
+
+  const SimulatorProcess second({"--link", folder / "by-id/usb-B", "--pins", folder / "pins"});
+  ASSERT_TRUE(poll_until_armed(link)) << link.status().problem;
+  EXPECT_EQ(link.status().device, (folder / "by-id/usb-B").string());
+  EXPECT_EQ(link.status().reconnects, 1U);
+  EXPECT_TRUE(drive_until(link, [&] { return runs_both(folder / "pins"); }));
+  EXPECT_THAT(running(read_pins(folder / "pins")), ElementsAre(5, 9));
+}
+
 TEST(SerialLink, LeavesNoMotorRunningWhenTheFirmwaresInputIsCut) {
   const TemporaryFolder folder;
   SimulatorProcess simulator({"--link", folder / "jacket", "--pins", folder / "pins"});
