@@ -6,4 +6,4 @@ add_dependencies(test_serial_link telehug-jacket-sim)
 
 telehug_test(test_bluez KIND integration SUBJECT jacket
   SOURCES integration/wire/bluez_test.cpp doubles/fake_bluez.cpp
-  DEPS passive_wire PkgConfig::sdbus)
+  DEPS passive_link PkgConfig::sdbus)

@@ -9,6 +9,8 @@
 
 #include "doubles/fake_bluez.hpp"
 #include "doubles/private_bus.hpp"
+#include "link/jacket_session.hpp"
+#include "link/wire_link.hpp"
 #include "wire/rfcomm_checks.hpp"
 #include "wire/rfcomm_opener.hpp"
 
@@ -92,6 +94,43 @@ TEST_F(BluezTest, FindsABluezThatHasBeenStartedAgain) {
   const auto wire = open(opener);
   ASSERT_TRUE(wire);
   EXPECT_TRUE(*wire) << wire->error().message;
+}
+
+// The other end is played here, frame by frame.
+TEST_F(BluezTest, CarriesTheConversationWithAJacketAndBeginsItAnewAfterALoss) {
+  const FakeBluez& service = start();
+  WireLink link(std::make_unique<RfcommOpener>(peer, sockets, bus.address()), std::make_unique<JacketSession>());
+  FrameDecoder decoder;
+  const auto answer = [&](const Frame& frame) {
+    Frame reply{protocol::FrameType::ack, frame.sequence, {static_cast<std::uint8_t>(frame.type)}};
+    if (frame.type == protocol::FrameType::hello) {
+      reply.type = protocol::FrameType::caps;
+      reply.payload = {1, 1, 12, 0, 0, 32, 64, 50, 25, 1, frame.payload.at(2), frame.payload.at(3)};
+    }
+    const EncodedFrame bytes = encode(reply);
+    service.connection()->write({bytes.data(), bytes.size()});
+  };
+  const auto arms = [&] {
+    const Timestamp give_up = SteadyClock{}.now() + 20s;
+    while (link.status().state != LinkState::armed && SteadyClock{}.now() < give_up) {
+      link.poll(SteadyClock{}.now());
+      if (!service.connection()) continue;
+      for (const std::uint8_t byte : service.connection()->read())
+        if (const auto frame = decoder.push(byte)) answer(*frame);
+      std::this_thread::sleep_for(1ms);
+    }
+    return link.status().state == LinkState::armed;
+  };
+  ASSERT_TRUE(arms()) << link.status().problem;
+  EXPECT_EQ(link.status().device, "00:1A:7D:DA:71:13");
+  EXPECT_EQ(link.status().motor_count, 12);
+  service.connection()->close_own();
+  for (int last_words = 0; last_words < 2; ++last_words)
+    link.poll(SteadyClock{}.now());
+  EXPECT_EQ(link.status().problem,
+            "the connection to 00:1A:7D:DA:71:13 is lost: switch the jacket on, or bring it nearer");
+  ASSERT_TRUE(arms()) << link.status().problem;
+  EXPECT_EQ(link.status().reconnects, 1U);
 }
 
 TEST_F(BluezTest, NeverMakesTheCallerWait) {
