@@ -53,6 +53,7 @@ ExitCode run(const Options& options) {
   if (!profile) return fail(ExitCode::config, profile.error().message);
   LinkOptions link_options;
   link_options.baud = static_cast<unsigned>(config->jacket.baud != 0 ? config->jacket.baud : profile->baud);
+  if (profile->protocol == JacketProtocol::legacy) link_options.protocol = LinkProtocol::legacy;
   auto link = make_link(config->jacket.link, link_options);
   if (!link) return fail(ExitCode::device, link.error().message);
   const SteadyClock clock;

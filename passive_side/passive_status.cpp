@@ -5,6 +5,7 @@
 
 #include "common/names.hpp"
 #include "daemon/status_parts.hpp"
+#include "jacket_status.hpp"
 #include "passive_daemon.hpp"
 
 namespace telehug {
@@ -31,11 +32,6 @@ Json felt_json(const Felt& felt) {
           {"driven_time_ns", felt.driven_time_ns}};
 }
 
-const char* name_of(LinkState state) {
-  constexpr const char* names[] = {"absent", "connecting", "armed"};
-  return names[static_cast<std::size_t>(state)];
-}
-
 }  // namespace
 
 void PassiveDaemon::answer_commands() {
@@ -48,10 +44,7 @@ void PassiveDaemon::answer_commands() {
 
 Json PassiveDaemon::problems(const DriveThreadState& now, const std::vector<ConnectionStatus>& connections) const {
   Json list = Json::array();
-  if (now.link.state != LinkState::armed) {
-    list.push_back(problem_json(fmt::format("no jacket answers on {}: {}", now.link.device, now.link.problem),
-                                "check its cable and power, and [jacket] link in the configuration"));
-  }
+  add_jacket_problems(list, now.link);
   add_pair_ends(list, connections);
   if (stop_.stopped()) list.push_back(problem_json("stopped here: " + stop_.reason(), "run `telehug resume`"));
   for (const ConnectionStatus& connection : connections)
@@ -100,13 +93,7 @@ Json PassiveDaemon::status() const {
                            : !any_alive(connected) ? "waiting"
                                                    : "ok"},
                  {"problems", problems(now, connected)},
-                 {"jacket",
-                  {{"name", profile_.name},
-                   {"device", now.link.device},
-                   {"state", name_of(now.link.state)},
-                   {"firmware", now.link.firmware_version},
-                   {"motors", now.link.motor_count},
-                   {"running", id_list(now.running)}}},
+                 {"jacket", jacket_json(profile_.name, now.link, now.running)},
                  {"counters", counters},
                  {"latency_ms", metrics_.latencies_json()}};
   add_connections(answer, connected);
@@ -137,7 +124,11 @@ void PassiveDaemon::tell_watchers() {
                          {"actuators", id_list(change.actuators)}});
   }
   const DriveThreadState now = state();
-  if (now.link.state == LinkState::armed) {
+  if (now.link.state == LinkState::armed && !now.link.answers) {
+    say_jacket_.say(
+        spdlog::level::info,
+        fmt::format("jacket on {}: it answers nothing, so whether it is there is not known", now.link.device));
+  } else if (now.link.state == LinkState::armed) {
     say_jacket_.say(spdlog::level::info, fmt::format("jacket ready: {}, firmware {}, {} motors", now.link.device,
                                                      now.link.firmware_version, now.link.motor_count));
   } else {

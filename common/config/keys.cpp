@@ -276,7 +276,9 @@ std::vector<Key> keys_of(PassiveConfig& c) {
        "File of the wearer's own limits, below those of the profile, and of actuators that are switched off; empty: "
        "none."},
       {"jacket", "link", &c.jacket.link, "", parsed_by(parse_jacket_link),
-       "\"serial:PATH\", \"simulated\" (no jacket needed) or \"record:FILE\" (what would be sent)."},
+       "\"serial:PATH\" (take one of /dev/serial/by-id, which stays the same; \"serial:auto\": the only one there), "
+       "\"rfcomm:ADDRESS\" or \"rfcomm:ADDRESS/CHANNEL\" (Bluetooth; pair it first), \"simulated\" (no jacket needed) "
+       "or \"record:FILE\" (what would be sent)."},
       {"jacket", "baud", &c.jacket.baud, "baud", Range{0, 1000000},
        "Speed of the serial line; 0: as the profile says."},
       {"jacket", "several_senders", &c.jacket.several_senders, "", OneOf{{"merged", "exclusive"}},

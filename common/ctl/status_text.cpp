@@ -109,7 +109,24 @@ std::string thing_text(std::string_view label, const Json& thing) {
   std::string text = joined(text_at(thing, "name"), ", ", text_at(thing, "gesture"));
   if (part(thing, "open") != nullptr) text = joined(text, ", ", flag_at(thing, "open") ? "open" : "closed");
   text = joined(text, ": ", text_at(thing, "why"));
-  return line(label, joined(text, ", ", rest_of(thing, {"name", "gesture", "open", "why", "places_px"})));
+  return line(label, joined(text, ", ", rest_of(thing, {"name", "gesture", "open", "why", "places_px", "heaters"})));
+}
+
+// A line for each heater of the jacket.
+std::string heaters_text(const Json& jacket) {
+  const Json* heaters = part(jacket, "heaters");
+  if (heaters == nullptr || !heaters->is_array()) return "";
+  std::string text;
+  int number = 0;
+  for (const Json& heater : *heaters) {
+    const Json* celsius = part(heater, "celsius");
+    const std::string fault = text_at(heater, "fault");
+    text += line(fmt::format("heater {}", number++),
+                 joined(celsius != nullptr && celsius->is_number() ? fmt::format("{:.1f} C", celsius->get<double>())
+                                                                   : "no reading",
+                        ", ", fault == "none" ? "" : fault));
+  }
+  return text;
 }
 
 std::string counters_text(const Json& counters) {
@@ -150,7 +167,7 @@ std::string status_text(const Json& status) {
   for (const char* name : things) {
     std::string label = name;
     std::replace(label.begin(), label.end(), '_', ' ');
-    if (const Json* thing = part(status, name)) text += thing_text(label, *thing);
+    if (const Json* thing = part(status, name)) text += thing_text(label, *thing) + heaters_text(*thing);
   }
   if (status.is_object()) {
     for (const auto& [name, value] : status.items()) {

@@ -1,7 +1,24 @@
 # SPDX-License-Identifier: Apache-2.0
 telehug_test(test_link KIND unit SUBJECT jacket
-  SOURCES unit/link/frame_codec_test.cpp unit/link/jacket_session_test.cpp unit/link/make_link_test.cpp
+  SOURCES
+    unit/link/frame_codec_test.cpp
+    unit/link/jacket_session_heat_test.cpp
+    unit/link/jacket_session_test.cpp
+    unit/link/jacket_telemetry_test.cpp
+    unit/link/legacy_session_test.cpp
+    unit/link/make_link_test.cpp
+    unit/link/wire_link_test.cpp
+    doubles/allocation_counter.cpp
   DEPS passive_link)
+
+telehug_test(test_wire KIND unit SUBJECT jacket
+  SOURCES
+    unit/wire/rfcomm_opener_test.cpp
+    unit/wire/rfcomm_peer_test.cpp
+    unit/wire/serial_port_test.cpp
+    unit/wire/wire_test.cpp
+    doubles/ioctl_double.cpp
+  DEPS passive_wire)
 
 telehug_test(test_firmware KIND unit SUBJECT jacket
   SOURCES
@@ -12,6 +29,7 @@ telehug_test(test_firmware KIND unit SUBJECT jacket
     unit/firmware/legacy_test.cpp
     unit/firmware/pin_activity_test.cpp
     unit/firmware/simulated_heaters_test.cpp
+    unit/firmware/wire_faults_test.cpp
   DEPS passive_link jacket_simulator fmt::fmt)
 
 # Half an hour of the microcontroller's time.
@@ -28,3 +46,5 @@ foreach(test test_firmware test_firmware_heaters)
     TELEHUG_FIRMWARE_FOLDER="${CMAKE_BINARY_DIR}/firmware")
   add_dependencies(${test} telehug_jacket_firmware)
 endforeach()
+
+telehug_test(test_udev_rules KIND unit SUBJECT jacket SOURCES unit/deploy/udev_rules_test.cpp DEPS telehug_common)

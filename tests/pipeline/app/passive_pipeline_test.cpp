@@ -206,6 +206,7 @@ class ForgetfulLink final : public JacketLink {
     sent_ += commands.size();
     return true;
   }
+  bool heat(const HeaterCommands&, Timestamp) override { return false; }
   void stop_all(Timestamp) override {}
   [[nodiscard]] const LinkStatus& status() const override { return status_; }
   [[nodiscard]] std::size_t sent() const { return sent_; }

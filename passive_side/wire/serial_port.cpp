@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "link/serial_port.hpp"
+#include "wire/serial_port.hpp"
 
 #include <fcntl.h>
 #include <fmt/core.h>
+#include <fmt/ranges.h>
+#include <linux/serial.h>
 #include <sys/file.h>
 #include <sys/ioctl.h>
 #include <sys/stat.h>
@@ -62,9 +64,23 @@ Error cannot(const std::string& what, const std::string& path, int error) {
   return {fmt::format("can't {} {}: {}; {}", what, path, std::strerror(error), advice(error))};
 }
 
+// USB adapters hold answers back for 16 ms to send them together; drivers that can't be told otherwise are none the
+// worse.
+void ask_for_low_latency(int fd) {
+  serial_struct settings{};
+  if (ioctl(fd, TIOCGSERIAL, &settings) != 0) return;
+  settings.flags |= static_cast<int>(ASYNC_LOW_LATENCY);
+  ioctl(fd, TIOCSSERIAL, &settings);
+}
+
+// The kernel gives these names in the order of plugging.
+bool name_changes(const std::string& path) {
+  return path.starts_with("/dev/ttyUSB") || path.starts_with("/dev/ttyACM");
+}
+
 }  // namespace
 
-Result<SerialPort> SerialPort::open(const std::string& path, unsigned baud) {
+Result<Wire> open_serial_port(const std::string& path, unsigned baud) {
   const auto speed = speed_code(baud);
   if (!speed) {
     return Error{
@@ -72,7 +88,7 @@ Result<SerialPort> SerialPort::open(const std::string& path, unsigned baud) {
   }
   const int fd = ::open(path.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC);
   if (fd < 0) return cannot("open", path, errno);
-  SerialPort port(fd);
+  Wire port(fd);
 
   termios settings{};
   if (tcgetattr(fd, &settings) != 0) {
@@ -90,36 +106,34 @@ Result<SerialPort> SerialPort::open(const std::string& path, unsigned baud) {
   settings.c_cflag &= ~(static_cast<tcflag_t>(HUPCL) | static_cast<tcflag_t>(CRTSCTS));
   cfsetspeed(&settings, *speed);
   if (tcsetattr(fd, TCSANOW, &settings) != 0) return cannot("set up", path, errno);
+  ask_for_low_latency(fd);
   tcflush(fd, TCIOFLUSH);
   return port;
 }
 
-SerialPort::SerialPort(SerialPort&& other) noexcept : fd_(std::exchange(other.fd_, -1)) {}
-SerialPort& SerialPort::operator=(SerialPort&& other) noexcept {
-  std::swap(fd_, other.fd_);
-  return *this;
-}
-SerialPort::~SerialPort() {
-  if (fd_ >= 0) close(fd_);
+SerialOpener::SerialOpener(std::string path, unsigned baud, std::filesystem::path by_id)
+    : any_(path == "auto"), device_(std::move(path)), baud_(baud), by_id_(std::move(by_id)) {
+  if (any_) device_ = "serial:auto";
 }
 
-std::optional<std::size_t> SerialPort::read(std::span<std::uint8_t> into) {
-  const ssize_t count = ::read(fd_, into.data(), into.size());
-  if (count > 0) return static_cast<std::size_t>(count);
-  if (count < 0 && (errno == EAGAIN || errno == EINTR)) return 0;
-  return std::nullopt;  // 0 from a terminal without VMIN = 0: hung up
+std::optional<Result<Wire>> SerialOpener::open(Timestamp /*now*/) {
+  if (any_) {
+    auto only = only_serial_device(by_id_);
+    if (!only) return only.error();
+    device_ = *std::move(only);
+  }
+  auto port = open_serial_port(device_, baud_);
+  if (!port) return Error{port.error().message + better_name()};
+  return port;
 }
 
-std::optional<std::size_t> SerialPort::write(std::span<const std::uint8_t> bytes) {
-  const ssize_t count = ::write(fd_, bytes.data(), bytes.size());
-  if (count >= 0) return static_cast<std::size_t>(count);
-  if (errno == EAGAIN || errno == EINTR) return 0;
-  return std::nullopt;
-}
-
-std::size_t SerialPort::unsent() const {
-  int count = 0;
-  return ioctl(fd_, TIOCOUTQ, &count) == 0 && count > 0 ? static_cast<std::size_t>(count) : 0;
+// What to call it instead of a name that changes.
+std::string SerialOpener::better_name() const {
+  if (any_ || !name_changes(device_)) return "";
+  const auto devices = serial_devices(by_id_);
+  if (devices.empty()) return "";
+  return fmt::format("; {} may be another device each time, serial:{} stays one and the same", device_,
+                     fmt::join(devices, " or serial:"));
 }
 
 }  // namespace telehug

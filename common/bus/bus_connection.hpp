@@ -31,4 +31,7 @@ using BusSlot = std::unique_ptr<sd_bus_slot, BusSlotReleaser>;  // its end ends 
 // bus. `purpose`: of the error's sentence, "to ask the desktop for its screen".
 Result<Bus> connect_to_bus(const std::string& address, std::string_view purpose);
 
+// Likewise; `address` empty: the system bus.
+Result<Bus> connect_to_system_bus(const std::string& address);
+
 }  // namespace telehug
