@@ -8,5 +8,4 @@ telehug_test(test_jacket KIND unit SUBJECT jacket
     unit/jacket/safety_property_test.cpp
     unit/jacket/safety_stage_test.cpp
     unit/jacket/several_senders_test.cpp
-    unit/jacket/touch_to_drives_test.cpp
-  DEPS passive_jacket passive_safety fmt::fmt)
+  DEPS passive_jacket passive_rendering passive_safety fmt::fmt)

@@ -9,7 +9,7 @@
 
 #include "doubles/fake_jacket_link.hpp"
 #include "jacket/load_jacket_profile.hpp"
-#include "jacket/touch_to_drives.hpp"
+#include "rendering/jacket_renderer.hpp"
 #include "safety/safety_stage.hpp"
 #include "unit/jacket/jacket_builders.hpp"
 
@@ -45,7 +45,8 @@ std::string commands_for(const Contact& contact) {
   const Timestamp now = from_ns(1'000'000'000);
   safety.tick(now);
   safety.on_heartbeat(0, now);
-  safety.apply(0, touch_to_drives(event_of(1, {contact}), {}, profile, {}, now, 200ms).drives, now);
+  JacketRenderer renderer(profile, 200ms);
+  safety.apply(0, renderer.plan(event_of(1, {contact}), {}, now).drives, now);
   return jacket.frames.empty() ? "" : text(jacket.frames.front().commands);
 }
 
