@@ -8,6 +8,7 @@
 #include "common/version.hpp"
 #include "config/load.hpp"
 #include "config/places.hpp"
+#include "jacket/jacket_overrides.hpp"
 #include "jacket/load_jacket_profile.hpp"
 #include "link/make_link.hpp"
 #include "passive_daemon.hpp"
@@ -47,9 +48,11 @@ ExitCode run(const Options& options) {
   auto found = memberships(config->peer, Side::passive, wall_time());
   if (!found) return fail(ExitCode::config, found.error().message);
   auto profile = load_jacket_profile(jacket_profile_file(config->jacket));
+  if (profile && !config->jacket.overrides.empty())
+    profile = with_overrides(*std::move(profile), config->jacket.overrides);
   if (!profile) return fail(ExitCode::config, profile.error().message);
   LinkOptions link_options;
-  link_options.baud = static_cast<unsigned>(config->jacket.baud);
+  link_options.baud = static_cast<unsigned>(config->jacket.baud != 0 ? config->jacket.baud : profile->baud);
   auto link = make_link(config->jacket.link, link_options);
   if (!link) return fail(ExitCode::device, link.error().message);
   const SteadyClock clock;
@@ -61,6 +64,23 @@ ExitCode run(const Options& options) {
   } catch (const DdsError& error) {
     return fail(ExitCode::network, error.what());
   }
+}
+
+// For whoever writes a profile: is it right, and what does it lack?
+ExitCode check_jackets(const std::vector<std::string>& files, const std::string& overrides) {
+  ExitCode result = ExitCode::ok;
+  for (const std::string& file : files) {
+    auto profile = load_jacket_profile(file);
+    if (profile && !overrides.empty()) profile = with_overrides(*std::move(profile), overrides);
+    if (!profile) {
+      result = fail(ExitCode::config, profile.error().message);
+      continue;
+    }
+    fmt::print("{}: \"{}\", {} actuators, no fault\n", file, profile->name, profile->actuators.size());
+    for (const std::string& note : profile->notes)
+      fmt::print("note: {}\n", note);
+  }
+  return result;
 }
 
 ExitCode parse_and_run(int argc, char** argv) {
@@ -77,6 +97,12 @@ ExitCode parse_and_run(int argc, char** argv) {
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
   command->callback([&] { result = run(options); });
+  std::vector<std::string> files;
+  std::string overrides;
+  CLI::App* check = app.add_subcommand("check-jacket", "Are these jacket profiles right? Lists all their faults");
+  check->add_option("FILE", files, "Profiles (TOML; deploy/jackets/README.md explains them)")->required();
+  check->add_option("--overrides", overrides, "The wearer's own limits to them")->type_name("FILE");
+  check->callback([&] { result = check_jackets(files, overrides); });
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& problem) {

@@ -129,6 +129,7 @@ void PassiveDaemon::drive_loop() {
       process_newest_event(*sender);
     for (const auto& sender : senders_.adopted())
       sender->pipeline.tick(clock_.now());
+    follow_trial(clock_.now());
     const Timestamp now = clock_.now();
     safety_.tick(now);
     tell_running(now);

@@ -19,6 +19,7 @@
 #include "daemon/stop_switch.hpp"
 #include "hug_back.hpp"
 #include "jacket/jacket_profile.hpp"
+#include "jacket_trial.hpp"
 #include "passive_pipeline.hpp"
 #include "safety/safety_stage.hpp"
 #include "service/control_server.hpp"
@@ -30,6 +31,12 @@
 
 namespace telehug {
 
+// What became of the wearer's last trial.
+struct TrialOutcome {
+  std::uint64_t number = 0;
+  FeltOutcome outcome = FeltOutcome::driven;
+};
+
 // What the drive thread tells of itself, for status.
 struct DriveThreadState {
   LinkStatus link;
@@ -39,6 +46,7 @@ struct DriveThreadState {
   std::vector<std::uint8_t> running;  // ids of actuators
   std::optional<Felt> last_felt;
   Gesture last_gesture = Gesture::none;
+  std::optional<TrialOutcome> trial;
 };
 
 // Which actuators run, whenever that changes, for those who watch.
@@ -79,6 +87,7 @@ class PassiveDaemon {
   void hear(ConnectedSender& sender, Timestamp now);
   void process_newest_event(ConnectedSender& sender);
   void follow_stops(Timestamp now);
+  void follow_trial(Timestamp now);
   void tell_running(Timestamp now);
   void tell_state(Timestamp now);
 
@@ -88,6 +97,8 @@ class PassiveDaemon {
   void keep_connections();
   void answer_commands();
   nlohmann::json order_hug(const nlohmann::json& request);
+  nlohmann::json order_trial(const nlohmann::json& request);
+  nlohmann::json describe_jacket(const nlohmann::json& request) const;
   nlohmann::json status() const;
   [[nodiscard]] std::vector<ConnectionStatus> connections() const;
   nlohmann::json problems(const DriveThreadState& state, const std::vector<ConnectionStatus>& connections) const;
@@ -107,6 +118,7 @@ class PassiveDaemon {
   // Drive thread
   Timestamp told_state_;
   DriveThreadState own_state_;
+  JacketTrial trial_;
   std::array<bool, max_senders> driven_{};  // the numbers of those that are connected
   boost::container::static_vector<std::uint8_t, max_actuators> told_running_;
   Counter& events_received_;
@@ -116,6 +128,11 @@ class PassiveDaemon {
 
   // Between the threads
   LatestSlot<bool> bell_;  // rung after every event that came
+  struct OrderedTrial {
+    std::uint64_t number;
+    TrialRequest request;
+  };
+  LatestSlot<OrderedTrial> trial_request_;
   StopSwitch stop_;
   std::atomic<bool> ending_ = false;
   mutable std::mutex state_mutex_;
@@ -126,7 +143,8 @@ class PassiveDaemon {
   // Housekeeping
   SayOnChange say_jacket_;
 
-  HugBack hug_back_;  // the control thread's
+  std::uint64_t trials_ordered_ = 0;  // the control thread's
+  HugBack hug_back_;                  // likewise
   Counter& hugs_sent_;
   Counter& hugs_too_soon_;
 

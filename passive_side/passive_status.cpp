@@ -41,6 +41,8 @@ const char* name_of(LinkState state) {
 void PassiveDaemon::answer_commands() {
   control_->on("status", [this](const Json&) { return status(); });
   control_->on("hug", [this](const Json& request) { return order_hug(request); });
+  control_->on("jacket", [this](const Json& request) { return describe_jacket(request); });
+  control_->on("jacket_trial", [this](const Json& request) { return order_trial(request); });
   stop_.serve(*control_);
 }
 

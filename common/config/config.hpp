@@ -102,8 +102,9 @@ struct ActiveConfig {
 
 struct JacketConfig {
   std::string profile;             // empty: see jacket_profile_file()
+  std::string overrides;           // file; empty: none
   std::string link = "simulated";  // read it with parse_jacket_link()
-  int baud = 57600;
+  int baud = 0;                    // 0: the profile's
   std::string several_senders = "merged";  // merged, exclusive
 };
 

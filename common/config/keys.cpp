@@ -255,10 +255,19 @@ std::vector<Key> keys_of(PassiveConfig& c) {
        &c.jacket.profile,
        "",
        {},
-       "File that describes the jacket; empty: the installed one of the 16-motor jacket."},
+       "File that describes the jacket, or the name of an installed one (duemilanove-16.toml, "
+       "duemilanove-12-heaters-2.toml, legacy-16.toml); empty: the first of these."},
+      {"jacket",
+       "overrides",
+       &c.jacket.overrides,
+       "",
+       {},
+       "File of the wearer's own limits, below those of the profile, and of actuators that are switched off; empty: "
+       "none."},
       {"jacket", "link", &c.jacket.link, "", parsed_by(parse_jacket_link),
        "\"serial:PATH\", \"simulated\" (no jacket needed) or \"record:FILE\" (what would be sent)."},
-      {"jacket", "baud", &c.jacket.baud, "baud", Range{9600, 1000000}, "Speed of the serial line."},
+      {"jacket", "baud", &c.jacket.baud, "baud", Range{0, 1000000},
+       "Speed of the serial line; 0: as the profile says."},
       {"jacket", "several_senders", &c.jacket.several_senders, "", OneOf{{"merged", "exclusive"}},
        "What is felt when several touch at once. merged: all of them, each place as strongly as the strongest of them "
        "asks; exclusive: the one who began, until they have not touched for 2 s."},
@@ -304,11 +313,12 @@ std::vector<Fault> impossible_combinations(const PassiveConfig& c, const std::ve
   // Speeds that termios knows and the jacket's clock can make.
   constexpr int speeds[] = {9600, 19200, 38400, 57600, 115200, 230400, 500000, 1000000};
   std::vector<Fault> faults = impossible_peers(c.peer, keys);
-  if (std::find(std::begin(speeds), std::end(speeds), c.jacket.baud) == std::end(speeds)) {
-    faults.push_back({place_of(keys, {"jacket.baud"}),
-                      fmt::format("jacket.baud is {}; serial lines know 9600, 19200, 38400, 57600, 115200, 230400, "
-                                  "500000 and 1000000",
-                                  c.jacket.baud)});
+  if (c.jacket.baud != 0 && std::find(std::begin(speeds), std::end(speeds), c.jacket.baud) == std::end(speeds)) {
+    faults.push_back(
+        {place_of(keys, {"jacket.baud"}), fmt::format("jacket.baud is {}; it must be 0, or a speed that serial lines "
+                                                      "know: 9600, 19200, 38400, 57600, 115200, 230400, "
+                                                      "500000 or 1000000",
+                                                      c.jacket.baud)});
   }
   return faults;
 }

@@ -21,6 +21,7 @@ Examples:
   telehug send off                    touches on this screen touch nobody
   telehug face next                   the other person in the picture is meant
   telehug hug --seconds 4             felt by the wearer; from the wearer's PC seen and heard by the sender
+  telehug jacket identify             on the wearer's PC: runs the motors one by one, telling their names
   telehug pair invite                 make a pair of this PC and another one
 
 Exit codes: 0 ok, 1 fault of telehug, 2 wrong command line, 5 no daemon is running, 6 peer absent (--check),
@@ -40,6 +41,7 @@ ExitCode parse_and_run(int argc, char** argv) {
   telehug::add_send(app, result);
   telehug::add_face(app, result);
   telehug::add_hug(app, result);
+  telehug::add_jacket(app, result);
   telehug::add_pair(app, result);
   telehug::add_version(app, result);
   try {

@@ -16,7 +16,7 @@
 
 namespace telehug {
 
-inline constexpr int jacket_profile_format = 1;
+inline constexpr int jacket_profile_format = 2;
 inline constexpr std::uint8_t motor_channels = 16;  // of the microcontroller: 0..15
 inline constexpr std::uint8_t heater_channels = 2;  // numbered beside them: 0..1
 
@@ -35,6 +35,9 @@ enum class JacketProtocol : std::uint8_t {
   telehug,  // link/protocol.hpp
   legacy,   // the thesis' sketch: a bare box number starts a pulse; no answer, no stop
 };
+
+// What the microcontroller hangs on; any, where the profile does not say.
+enum class JacketWire : std::uint8_t { any, serial, bluetooth };
 
 // How a touch finds its actuators.
 enum class Rendering : std::uint8_t {
@@ -77,6 +80,7 @@ struct JacketProfile {
   std::string name;
   int baud = 0;
   JacketProtocol protocol = JacketProtocol::telehug;
+  JacketWire wire = JacketWire::any;
   Uncovered uncovered = Uncovered::none;
   Rendering rendering = Rendering::boxes;
   double supply_ma = 0;  // what all motors together may draw; 0: not limited

@@ -8,8 +8,8 @@
 
 namespace telehug {
 
-// Reads a jacket profile (TOML; the format is explained in deploy/jackets/README.md). The error lists all faults of the
-// file at once, one "FILE:LINE: sentence" a line.
+// Reads a jacket profile (TOML; the format is explained in deploy/jackets/README.md, and as a JSON schema in
+// jacket.schema.json). The error lists all faults of the file at once, one "FILE:LINE: sentence" a line.
 Result<JacketProfile> load_jacket_profile(const std::filesystem::path& path);
 
 }  // namespace telehug

@@ -26,9 +26,9 @@ void DriveShaper::want(double strength, Timestamp end, Timestamp now) {
   }
   const Timestamp off_since = told_.strength > 0 ? told_.end : stopped_.value_or(now - coasting);
   if (!runs(now)) kick_ends_ = now - off_since >= coasting ? now + actuator_->kick : now;
-  starts_ = now < kick_ends_;
-  wanted_ = starts_ ? Drive{actuator_->id, 1, std::min(end, kick_ends_ + kick_margin)}
-                    : Drive{actuator_->id, std::pow(std::min(strength, 1.0), actuator_->gamma), end};
+  wanted_ = {actuator_->id, std::pow(std::min(strength, 1.0), actuator_->gamma), end};
+  starts_ = now < kick_ends_ && wanted_.strength < 1 - slightest;
+  if (starts_) wanted_ = {actuator_->id, 1, std::min(end, kick_ends_ + kick_margin)};
 }
 
 bool DriveShaper::runs(Timestamp now) const noexcept {

@@ -60,6 +60,7 @@ SafetyStage::SafetyStage(std::unique_ptr<JacketLink> link, const JacketProfile& 
   check(limits_);
   check(profile);
   for (const Actuator& actuator : profile.actuators) {
+    if (!actuator.enabled || actuator.kind != ActuatorKind::motor) continue;
     const double most = std::min(actuator.max_strength, limits_.max_strength);
     motors_.push_back({actuator.id, actuator.channel, {actuator.min_strength, most}});
   }

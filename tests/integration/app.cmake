@@ -36,3 +36,5 @@ telehug_test(test_app_look KIND integration SUBJECT face
 telehug_test(test_app_hug KIND integration SUBJECT jacket
   SOURCES integration/app/hug_test.cpp DEPS running_pair PkgConfig::sdbus)
 set_tests_properties(test_app_hug PROPERTIES RUN_SERIAL TRUE)  # as test_app_silence
+telehug_test(test_app_jacket_command KIND integration SUBJECT jacket
+  SOURCES integration/app/jacket_command_test.cpp DEPS running_pair)

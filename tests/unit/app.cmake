@@ -5,4 +5,5 @@ telehug_test(test_screen_source KIND unit SUBJECT face SOURCES unit/app/screen_s
 telehug_test(test_sending KIND unit SUBJECT face
   SOURCES unit/app/sending_switch_test.cpp unit/app/touched_box_test.cpp DEPS active_app)
 telehug_test(test_hug_back KIND unit SUBJECT ops SOURCES unit/app/hug_back_test.cpp DEPS passive_app)
+telehug_test(test_jacket_trial KIND unit SUBJECT jacket SOURCES unit/app/jacket_trial_test.cpp DEPS passive_app)
 telehug_test(test_demo_verdict KIND unit SUBJECT touch SOURCES unit/app/demo_verdict_test.cpp DEPS demonstration)

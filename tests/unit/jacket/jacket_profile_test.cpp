@@ -41,10 +41,11 @@ class JacketProfileTest : public ::testing::Test {
   std::filesystem::path folder_;
 };
 
-const std::string head = R"(version = 1
+const std::string head = R"(version = 2
 name = "Vest"
 baud = 57600
 uncovered = "none"
+rendering = "boxes"
 )";
 const std::string one_motor = R"([[actuator]]
 id = 7
@@ -57,15 +58,35 @@ side = "front"
 boxes = [8, 13]
 )";
 
+// Channel 1 is another than a motor's channel 1.
+const std::string one_heater = R"([[actuator]]
+id = 9
+name = "back, warm"
+kind = "heater"
+channel = 1
+x_fh = 0
+y_fh = 1
+side = "back"
+max_celsius = 38.5
+)";
+
 TEST_F(JacketProfileTest, reads_all_there_is) {
   const auto loaded =
-      load(head + "[defaults]\nmax_strength = 0.8\nmin_strength = 0.3\n" + one_motor + "max_strength = 0.6\n");
+      load(head +
+           "protocol = \"telehug\"\nlink = \"bluetooth\"\nsupply_ma = 900\nduty_window_s = 8\n"
+           "[defaults]\nmax_strength = 0.8\nmin_strength = 0.3\ngamma = 1.5\nkick_ms = 40\ncurrent_ma = 75\n" +
+           one_motor + "max_strength = 0.6\nmax_duty = 0.5\n" + one_heater);
   ASSERT_TRUE(loaded) << loaded.error().message;
-  EXPECT_EQ(loaded->version, 1);
+  EXPECT_EQ(loaded->version, 2);
   EXPECT_EQ(loaded->name, "Vest");
   EXPECT_EQ(loaded->baud, 57600);
+  EXPECT_EQ(loaded->protocol, JacketProtocol::telehug);
+  EXPECT_EQ(loaded->wire, JacketWire::bluetooth);
   EXPECT_EQ(loaded->uncovered, Uncovered::none);
-  ASSERT_EQ(loaded->actuators.size(), 1U);
+  EXPECT_EQ(loaded->rendering, Rendering::boxes);
+  EXPECT_EQ(loaded->supply_ma, 900);
+  EXPECT_EQ(loaded->duty_window, 8s);
+  ASSERT_EQ(loaded->actuators.size(), 2U);
   const Actuator& actuator = loaded->actuators[0];
   EXPECT_EQ(actuator.id, 7);
   EXPECT_EQ(actuator.name, "breastbone");
@@ -77,6 +98,15 @@ TEST_F(JacketProfileTest, reads_all_there_is) {
   EXPECT_THAT(actuator.boxes, ElementsAre(8, 13));
   EXPECT_EQ(actuator.max_strength, 0.6);
   EXPECT_EQ(actuator.min_strength, 0.3);
+  EXPECT_TRUE(actuator.enabled);
+  EXPECT_EQ(actuator.gamma, 1.5);
+  EXPECT_EQ(actuator.kick, 40ms);
+  EXPECT_EQ(actuator.current_ma, 75);
+  EXPECT_EQ(actuator.max_duty, 0.5);
+  const Actuator& heater = loaded->actuators[1];
+  EXPECT_EQ(heater.kind, ActuatorKind::heater);
+  EXPECT_EQ(heater.channel, 1);
+  EXPECT_EQ(heater.max_celsius, 38.5);
   EXPECT_EQ(loaded->index_of(7), 0U);
   EXPECT_EQ(loaded->index_of(8), std::nullopt);
 }
@@ -88,17 +118,18 @@ TEST_F(JacketProfileTest, notes_boxes_that_nobody_serves_without_calling_it_a_fa
 }
 
 TEST_F(JacketProfileTest, lists_all_faults_at_once_each_with_its_line) {
-  const std::string text = R"(version = 2
+  const std::string text = R"(version = 3
 name = ""
 baud = 12345
 colour = "red"
 uncovered = "maybe"
+rendering = "boxes"
 [defaults]
 max_strength = 1.5
 [[actuator]]
 id = 1
 name = "a"
-kind = "heater"
+kind = "fan"
 channel = 16
 x_fh = nan
 y_fh = inf
@@ -125,18 +156,18 @@ max_strength = 0.5
 )";
   EXPECT_THAT(
       faults(text),
-      ElementsAre(HasSubstr(":1: profile: version is 2 but must be 1..1"), HasSubstr(":2: profile: name is empty"),
+      ElementsAre(HasSubstr(":1: profile: version is 3 but must be 2..2"), HasSubstr(":2: profile: name is empty"),
                   HasSubstr(":3: profile: baud is 12345"), HasSubstr(":4: profile: unknown key colour"),
                   HasSubstr(":5: profile: uncovered is \"maybe\" but must be \"nearest\" or \"none\""),
-                  HasSubstr(":7: defaults: max_strength is 1.5"), HasSubstr(":11: actuator 1: kind is \"heater\""),
-                  HasSubstr(":12: actuator 1: channel is 16 but must be 0..15"),
-                  HasSubstr(":13: actuator 1: x_fh is nan"), HasSubstr(":14: actuator 1: y_fh is inf"),
-                  HasSubstr(":15: actuator 1: side is \"top\""), HasSubstr(":16: actuator 1: boxes must be"),
-                  HasSubstr(":23: actuator 2: y_fh must be a number"),
-                  HasSubstr(":25: actuator 2: unknown key strength"), HasSubstr(":26: actuator 3 has no y_fh; add it"),
-                  HasSubstr(":27: actuator 3: id 2 is already taken by \"b\""),
-                  HasSubstr(":30: actuator 3: channel 4 already drives \"b\""),
-                  HasSubstr(":33: actuator 3: min_strength leaves nothing")));
+                  HasSubstr(":8: defaults: max_strength is 1.5"), HasSubstr(":12: actuator 1: kind is \"fan\""),
+                  HasSubstr(":13: actuator 1: channel is 16 but must be 0..15"),
+                  HasSubstr(":14: actuator 1: x_fh is nan"), HasSubstr(":15: actuator 1: y_fh is inf"),
+                  HasSubstr(":16: actuator 1: side is \"top\""), HasSubstr(":17: actuator 1: boxes must be"),
+                  HasSubstr(":24: actuator 2: y_fh must be a number"),
+                  HasSubstr(":26: actuator 2: unknown key strength"), HasSubstr(":27: actuator 3 has no y_fh; add it"),
+                  HasSubstr(":28: actuator 3: id 2 is already taken by \"b\""),
+                  HasSubstr(":31: actuator 3: channel 4 already drives \"b\""),
+                  HasSubstr(":34: actuator 3: min_strength leaves nothing")));
 }
 
 TEST_F(JacketProfileTest, refuses_a_jacket_without_actuators) {
@@ -147,12 +178,47 @@ TEST_F(JacketProfileTest, refuses_a_jacket_without_actuators) {
 }
 
 TEST_F(JacketProfileTest, refuses_whole_numbers_and_texts_of_another_type) {
-  const auto found = faults("version = 1.0\nname = 5\nbaud = \"57600\"\nuncovered = true\ndefaults = 1\n" + one_motor);
+  const auto found = faults(
+      "version = 2.0\nname = 5\nbaud = \"57600\"\nuncovered = true\nrendering = \"boxes\"\ndefaults = 1\n" + one_motor);
   EXPECT_EQ(found.size(), 5U);
 }
 
+TEST_F(JacketProfileTest, keeps_heaters_below_what_skin_may_have) {
+  const auto with = [](const std::string& celsius) {
+    std::string heater = one_heater;
+    return head + heater.replace(heater.find("38.5"), 4, celsius);
+  };
+  EXPECT_TRUE(load(with("40")));
+  EXPECT_THAT(faults(with("40.1")), ElementsAre(HasSubstr("max_celsius is 40.1 but must be 32..40")));
+  EXPECT_THAT(faults(with("nan")), ElementsAre(HasSubstr("max_celsius is nan")));
+}
+
+TEST_F(JacketProfileTest, refuses_what_a_legacy_jacket_can_t_do) {
+  const std::string legacy = R"(version = 2
+name = "Vest"
+baud = 57600
+protocol = "legacy"
+uncovered = "none"
+rendering = "places"
+)";
+  EXPECT_THAT(faults(legacy + one_motor + one_heater),
+              ElementsAre(HasSubstr("protocol must be \"telehug\" for the heater \"back, warm\""),
+                          HasSubstr("rendering must be \"boxes\"")));
+}
+
+TEST_F(JacketProfileTest, loads_every_shipped_jacket) {
+  int jackets = 0;
+  for (const auto& file : std::filesystem::directory_iterator(TELEHUG_SOURCE "/deploy/jackets")) {
+    if (file.path().extension() != ".toml") continue;
+    const auto loaded = load_jacket_profile(file.path());
+    EXPECT_TRUE(loaded) << loaded.error().message;
+    ++jackets;
+  }
+  EXPECT_EQ(jackets, 3);
+}
+
 TEST_F(JacketProfileTest, says_where_a_file_is_no_toml) {
-  EXPECT_THAT(faults("version = 1\nname = \n"), ElementsAre(HasSubstr("jacket.toml:2: not valid TOML")));
+  EXPECT_THAT(faults("version = 2\nname = \n"), ElementsAre(HasSubstr("jacket.toml:2: not valid TOML")));
 }
 
 // toml++ takes tables within tables apart recursively.
@@ -160,7 +226,7 @@ TEST_F(JacketProfileTest, refuses_a_line_of_a_hundred_thousand_tables) {
   std::string key = "a";
   for (int i = 0; i < 100'000; ++i)
     key += ".a";
-  EXPECT_THAT(faults("version = 1\n" + key + " = 1"), ElementsAre(HasSubstr("line 2 is longer")));
+  EXPECT_THAT(faults("version = 2\n" + key + " = 1"), ElementsAre(HasSubstr("line 2 is longer")));
 }
 
 TEST_F(JacketProfileTest, says_that_a_file_is_not_there) {

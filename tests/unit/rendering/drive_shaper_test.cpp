@@ -49,6 +49,12 @@ TEST_F(DriveShaperTest, starts_a_motor_that_was_off_at_full_strength) {
   EXPECT_EQ(tell(0.3, start + 80ms)->strength, 0.3);
 }
 
+TEST_F(DriveShaperTest, needs_no_start_for_full_strength) {
+  actuator.kick = 40ms;
+  EXPECT_EQ(tell(1, start)->end, start + 200ms);
+  EXPECT_EQ(news(1, start + 40ms, start + 200ms), News::none);
+}
+
 TEST_F(DriveShaperTest, lets_a_start_end_by_itself_if_nobody_comes_in_time) {
   actuator.kick = 40ms;
   EXPECT_EQ(tell(0.3, start)->end, start + 60ms);
