@@ -238,6 +238,13 @@ TEST(Triangulation, splits_the_squares_of_a_grid_each_once) {
   EXPECT_EQ(triangulate(grid).triangles.size(), 12U);
 }
 
+TEST(Triangulation, leaves_no_node_inside_of_a_triangle) {
+  const std::vector<BodyPoint> star{{0, 0}, {1, 0}, {0.5, 1}, {0.5, 0.3}};
+  const Triangulation made = triangulate(star);
+  EXPECT_EQ(made.edges.size(), 6U);
+  EXPECT_EQ(made.triangles.size(), 3U);
+}
+
 TEST(Triangulation, has_no_triangles_of_fewer_than_three_nodes_or_of_nodes_on_a_line) {
   EXPECT_THAT(triangulate({}).edges, IsEmpty());
   EXPECT_THAT(triangulate(std::vector<BodyPoint>{{0, 0}}).edges, IsEmpty());

@@ -74,6 +74,16 @@ TEST_F(PlaceRendering, makes_a_tap_one_firm_pulse_however_short_it_is) {
   EXPECT_EQ(runs_for(3), tap_pulse - 20ms);
 }
 
+TEST_F(PlaceRendering, feels_a_tap_as_strong_as_it_was_whatever_its_end_says) {
+  Contact tap = contact_at(middle);
+  tap.strength = 0.8;
+  jacket.feel(tap);
+  tap = contact_at(middle, Gesture::tap, Phase::up);
+  tap.strength = 0;
+  jacket.feel(tap);
+  EXPECT_EQ(jacket.strength(3), 0.8);
+}
+
 TEST_F(PlaceRendering, ends_a_longer_tap_with_the_finger) {
   jacket.feel(contact_at(middle));
   jacket.rest(contact_at(middle), 270ms);
@@ -116,6 +126,15 @@ TEST_F(PlaceRendering, takes_a_contact_that_was_not_heard_of_for_so_long_for_a_n
   jacket.feel(hold);
   jacket.rest(hold, 3s);
   jacket.pass(250ms);
+  jacket.feel(hold);
+  EXPECT_EQ(jacket.strength(3), 1);
+}
+
+TEST_F(PlaceRendering, takes_it_for_a_new_one_also_if_nobody_went_on_meanwhile) {
+  const Contact hold = contact_at(middle, Gesture::hold, Phase::move);
+  jacket.feel(hold);
+  jacket.rest(hold, 3s);
+  jacket.now += 250ms;
   jacket.feel(hold);
   EXPECT_EQ(jacket.strength(3), 1);
 }
@@ -202,7 +221,7 @@ TEST_F(PlaceRendering, feels_touches_of_the_front_on_the_back_if_all_motors_are_
   for (Actuator& actuator : back.actuators)
     actuator.side = BodySide::back;
   ObedientJacket nearest(back);
-  nearest.feel(contact_at(middle, Gesture::hug));
+  EXPECT_THAT(nearest.feel(contact_at(middle, Gesture::hug)).answers[0].actuators, ElementsAre(3, 7));
   EXPECT_THAT(nearest.running(), ElementsAre(3, 7)) << "both are at this place";
   back.uncovered = Uncovered::none;
   ObedientJacket none(back);

@@ -38,7 +38,8 @@ class StrokeRendering : public ::testing::Test {
       const Phase phase = n == 0 ? Phase::down : n == steps ? Phase::up : Phase::move;
       finger_fh = std::min(to_fh, from_fh + speed_fh_s * n / events_s);
       Contact contact = contact_at({finger_fh, 1}, n < 2 ? Gesture::none : Gesture::stroke, phase);
-      contact.speed_mm_s = speed_fh_s * 130;
+      contact.speed_mm_s = n == steps ? 0 : speed_fh_s * 130;  // a finger that is gone has none
+      contact.strength = strength;
       if (comes(n)) jacket.feel(contact);
       note();
     }
@@ -48,7 +49,7 @@ class StrokeRendering : public ::testing::Test {
       jacket.feel(std::vector<Contact>{});
       note();
     }
-    pass(500ms);
+    pass(180ms);
   }
 
   // In steps that are no multiple of the drive thread's round.
@@ -70,6 +71,7 @@ class StrokeRendering : public ::testing::Test {
   }
 
   ObedientJacket jacket{places_of(row_of_motors())};
+  double strength = 1;
   double finger_fh = 0;
   std::map<std::uint8_t, Run> runs;
   std::map<std::uint8_t, double> strongest;
@@ -124,8 +126,22 @@ TEST_F(StrokeRendering, that_is_too_fast_for_motors_passes_each_of_them_in_turn_
       EXPECT_GT(runs[id].from, runs[id - 1].from) << int{id};
     }
   }
+  EXPECT_GT(strongest[5], 0.55) << "as firm as a fast stroke is, though the finger is gone";
   EXPECT_GT(runs[5].from - runs[1].from, 150ms) << "slower than the finger, so that it is felt as a movement";
   EXPECT_LT(runs[5].to - ObedientJacket::start, 100ms + longest_lag + burst + 20ms);
+}
+
+TEST_F(StrokeRendering, that_is_weak_gives_weak_bursts_after_a_strong_one) {
+  stroke(-1.2, 1.2, 6, 60);
+  for (int n = 0; n < 30; ++n) {  // the sender goes on without a pause
+    jacket.feel(std::vector<Contact>{});
+    pass(30ms);
+  }
+  strongest.clear();
+  strength = 0.3;
+  stroke(-1.2, 1.2, 6, 60);
+  for (std::uint8_t id = 1; id <= 5; ++id)
+    EXPECT_LE(strongest[id], 0.3) << int{id};
 }
 
 TEST_F(StrokeRendering, has_no_hole_where_events_were_lost) {
