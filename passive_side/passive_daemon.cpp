@@ -127,6 +127,8 @@ void PassiveDaemon::drive_loop() {
     follow_stops(clock_.now());
     for (const auto& sender : senders_.adopted())
       process_newest_event(*sender);
+    for (const auto& sender : senders_.adopted())
+      sender->pipeline.tick(clock_.now());
     follow_trial(clock_.now());
     const Timestamp now = clock_.now();
     safety_.tick(now);

@@ -9,12 +9,11 @@ PassivePipeline::PassivePipeline(SenderNumber sender, const JacketProfile& profi
                                  SenderTurn& turn, Duration drive_duration, const SessionId& session,
                                  const Clock& clock, MetricsRegistry& metrics)
     : sender_(sender),
-      profile_(profile),
       safety_(safety),
       turn_(turn),
-      drive_duration_(drive_duration),
       session_(session),
       clock_(clock),
+      renderer_(profile, drive_duration),
       accepted_(metrics.counter("events_accepted")),
       lost_(metrics.counter("events_lost")),
       doubled_(metrics.counter("events_doubled")),
@@ -40,11 +39,10 @@ const FeltAnswers& PassivePipeline::process(const TouchEvent& event, Timestamp r
   }
   if (touch != nullptr && its_turn) {
     note_gesture(*touch);
-    plan_ = touch_to_drives(event, {touch->transitions.data(), touch->transitions.size()}, profile_, plan_, ordered,
-                            drive_duration_);
+    const JacketPlan& plan = renderer_.plan(event, {touch->transitions.data(), touch->transitions.size()}, ordered);
     const Timestamp planned = clock_.now();
-    const SafetyVerdict verdict = safety_.apply(sender_, plan_.drives, planned);
-    answer(verdict, event, received);
+    const SafetyVerdict verdict = safety_.apply(sender_, plan.drives, planned);
+    answer(plan, verdict, event, received);
     plan_latency_.record(planned - ordered);
     drive_latency_.record(clock_.now() - planned);
   }
@@ -53,8 +51,13 @@ const FeltAnswers& PassivePipeline::process(const TouchEvent& event, Timestamp r
   return answers_;
 }
 
+void PassivePipeline::tick(Timestamp now) {
+  const Drives& drives = renderer_.tick(now);
+  if (!drives.empty()) safety_.apply(sender_, drives, now);
+}
+
 void PassivePipeline::forget_touches(Timestamp now) {
-  plan_ = {};
+  renderer_.reset();
   known_.clear();
   safety_.all_off(sender_, now);
 }
@@ -66,9 +69,10 @@ void PassivePipeline::note_gesture(const OrderedTouch& touch) {
     last_gesture_ = contact.gesture;
 }
 
-void PassivePipeline::answer(const SafetyVerdict& verdict, const TouchEvent& event, Timestamp received) {
+void PassivePipeline::answer(const JacketPlan& plan, const SafetyVerdict& verdict, const TouchEvent& event,
+                             Timestamp received) {
   const std::int64_t driven_time_ns = to_ns(clock_.now());
-  for (const ContactAnswer& planned : plan_.answers) {
+  for (const ContactAnswer& planned : plan.answers) {
     FeltOutcome outcome = planned.outcome;
     if (outcome == FeltOutcome::driven) {
       outcome = verdict.outcome == FeltOutcome::driven

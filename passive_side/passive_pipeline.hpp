@@ -7,7 +7,7 @@
 #include "common/clock.hpp"
 #include "common/messages.hpp"
 #include "jacket/jacket_profile.hpp"
-#include "jacket/touch_to_drives.hpp"
+#include "rendering/jacket_renderer.hpp"
 #include "safety/safety_stage.hpp"
 #include "service/metrics.hpp"
 #include "subscribe/sender_turn.hpp"
@@ -30,6 +30,9 @@ class PassivePipeline {
   // each contact that went down or up or is felt differently than at the event before. Valid until the next call.
   const FeltAnswers& process(const TouchEvent& event, Timestamp received);
 
+  // Goes on with what the last event told, between two of them. Call it every 10 ms, before the safety stage's own.
+  void tick(Timestamp now);
+
   // A stamp of the sender that carries no touch: keeps the estimate of the way's delay fresh.
   void observe(const Heartbeat& heartbeat, Timestamp now) {
     staleness_.observe(heartbeat.session, heartbeat.sent_time_ns, now);
@@ -40,22 +43,20 @@ class PassivePipeline {
 
  private:
   void note_gesture(const OrderedTouch& touch);
-  void answer(const SafetyVerdict& verdict, const TouchEvent& event, Timestamp received);
+  void answer(const JacketPlan& plan, const SafetyVerdict& verdict, const TouchEvent& event, Timestamp received);
   void refuse(FeltOutcome outcome, const OrderedTouch& touch, Timestamp received);
   [[nodiscard]] bool is_news(const ContactAnswer& answer, FeltOutcome outcome);
   void forget_touches(Timestamp now);
   void tell_counters();
 
   const SenderNumber sender_;
-  const JacketProfile& profile_;
   SafetyStage& safety_;
   SenderTurn& turn_;
-  Duration drive_duration_;
   SessionId session_;
   const Clock& clock_;
   TouchOrder order_;
   Staleness staleness_;
-  JacketPlan plan_;
+  JacketRenderer renderer_;
   FeltAnswers answers_;
   Gesture last_gesture_ = Gesture::none;
 

@@ -2,6 +2,7 @@
 //
 // A jacket profile that somebody wrote by hand. What is read keeps what jacket_profile.hpp promises, since everything
 // behind it relies on that.
+#include <algorithm>
 #include <cstdlib>
 #include <set>
 #include <string>
@@ -10,8 +11,9 @@
 #include "doubles/temporary_folder.hpp"
 #include "jacket/body_picture.hpp"
 #include "jacket/load_jacket_profile.hpp"
-#include "jacket/touch_to_drives.hpp"
+#include "rendering/jacket_renderer.hpp"
 #include "safety/safety_stage.hpp"
+#include "unit/jacket/jacket_builders.hpp"
 
 namespace telehug {
 namespace {
@@ -39,16 +41,34 @@ void check(const JacketProfile& profile) {
   }
 }
 
+// Whatever is touched is felt somewhere, if it shall be and anything may run.
+void touch_everywhere(const JacketProfile& profile) {
+  const bool felt =
+      profile.uncovered == Uncovered::nearest && std::ranges::any_of(profile.actuators, [](const Actuator& actuator) {
+        return actuator.enabled && actuator.kind == ActuatorKind::motor && actuator.max_strength > 0;
+      });
+  JacketRenderer renderer(profile, std::chrono::milliseconds(200));
+  TouchEvent event;
+  for (std::uint16_t box = 1; box <= largest_box; ++box) {
+    event.contacts = {contact_in(box)};
+    event.contacts[0].grid = {standard_columns, standard_rows};
+    const JacketPlan& plan = renderer.plan(event, {}, {});
+    for (const Drive& drive : plan.drives)
+      require(within(drive.strength, 0, 1));
+    require(!felt || plan.answers[0].outcome == FeltOutcome::driven);
+  }
+}
+
 // Throws if the profile is none.
-void use(const JacketProfile& profile) {
+void use(JacketProfile profile) {
   FakeJacket jacket;
   const SafetyStage safety(std::make_unique<FakeJacketLink>(jacket), profile, {});
   for (const BodySide side : {BodySide::front, BodySide::back})
     require(body_picture(profile, {}, side).size() <= static_cast<std::size_t>(body_picture_lines));
-  Contact contact;
-  contact.grid = {standard_columns, standard_rows};
-  for (contact.box = 1; contact.box <= largest_box; ++contact.box)
-    require(profile.uncovered == Uncovered::none || !actuators_at(contact, profile).empty());
+  for (const Rendering rendering : {Rendering::boxes, Rendering::places}) {
+    profile.rendering = rendering;
+    touch_everywhere(profile);
+  }
 }
 
 }  // namespace

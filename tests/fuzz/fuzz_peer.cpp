@@ -101,8 +101,11 @@ JacketProfile jacket_profile() {
   JacketProfile profile =
       profile_of({motor(1, middle_of(1), {1, 2}), motor(2, middle_of(8), {7, 8, 9}), motor(3, middle_of(20), {20, 21})},
                  Uncovered::nearest);
-  for (Actuator& actuator : profile.actuators)
+  profile.rendering = Rendering::places;
+  for (Actuator& actuator : profile.actuators) {
     actuator.max_strength = strongest;
+    actuator.kick = 30ms;
+  }
   return profile;
 }
 
@@ -158,6 +161,7 @@ class Wearer {
   void pass(Duration time) {
     for (; time > 0ms; time -= 10ms) {
       clock_.advance(std::min<Duration>(time, 10ms));
+      pipeline_.tick(clock_.now());
       safety_.tick(clock_.now());
       check();
       if (time > 2s) {  // nothing changes meanwhile

@@ -10,8 +10,7 @@ telehug_test(test_jacket KIND unit SUBJECT jacket
     unit/jacket/safety_property_test.cpp
     unit/jacket/safety_stage_test.cpp
     unit/jacket/several_senders_test.cpp
-    unit/jacket/touch_to_drives_test.cpp
-  DEPS passive_jacket passive_safety fmt::fmt)
+  DEPS passive_jacket passive_rendering passive_safety fmt::fmt)
 
 # Do the JSON schema and the loader take the same files for right?
 add_test(NAME test_jacket_schema COMMAND /usr/bin/python3 ${CMAKE_CURRENT_SOURCE_DIR}/unit/jacket/schema_test.py

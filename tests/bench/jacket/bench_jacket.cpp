@@ -15,7 +15,7 @@
 #include <vector>
 
 #include "jacket/load_jacket_profile.hpp"
-#include "jacket/touch_to_drives.hpp"
+#include "rendering/jacket_renderer.hpp"
 #include "safety/safety_stage.hpp"
 #include "unit/jacket/jacket_builders.hpp"
 
@@ -100,14 +100,15 @@ nlohmann::json measure(const JacketProfile& profile) {
   const SteadyClock clock;
   Timestamp now = clock.now();
   Touches touches;
-  JacketPlan plan;
+  JacketRenderer renderer(profile, 200ms);
   std::map<std::string, Figure> figures;
-  for (const char* name :
-       {"jacket.event_to_commands", "jacket.touch_to_drives", "jacket.safety_apply", "jacket.safety_tick"}) {
+  for (const char* name : {"jacket.event_to_commands", "jacket.touch_to_drives", "jacket.touch_to_drives_between",
+                           "jacket.safety_apply", "jacket.safety_tick"}) {
     figures[name].us.reserve(measured_events);
   }
   Figure& whole = figures["jacket.event_to_commands"];
   Figure& planning = figures["jacket.touch_to_drives"];
+  Figure& going_on = figures["jacket.touch_to_drives_between"];
   Figure& applying = figures["jacket.safety_apply"];
   Figure& ticking = figures["jacket.safety_tick"];
 
@@ -118,14 +119,17 @@ nlohmann::json measure(const JacketProfile& profile) {
     const auto fresh = touches.next();
     safety.on_heartbeat(0, now);
     const Timestamp begun = clock.now();
+    renderer.tick(now);
+    const Timestamp gone_on = clock.now();
     safety.tick(now);
     const Timestamp ticked = clock.now();
-    plan = touch_to_drives(touches.event, fresh, profile, plan, now, 200ms);
+    const JacketPlan& plan = renderer.plan(touches.event, fresh, now);
     const Timestamp planned = clock.now();
     safety.apply(0, plan.drives, now);
     const Timestamp applied = clock.now();
     if (i < 0) continue;
-    ticking.us.push_back(us_between(begun, ticked));
+    going_on.us.push_back(us_between(begun, gone_on));
+    ticking.us.push_back(us_between(gone_on, ticked));
     planning.us.push_back(us_between(ticked, planned));
     applying.us.push_back(us_between(planned, applied));
     whole.us.push_back(us_between(ticked, applied));
@@ -146,11 +150,12 @@ int run(int argc, char** argv) {
   app.add_option("--json", json_file, "Write the figures to this file");
   CLI11_PARSE(app, argc, argv);
 
-  const auto profile = load_jacket_profile(TELEHUG_SOURCE "/deploy/jackets/duemilanove-16.toml");
+  auto profile = load_jacket_profile(TELEHUG_SOURCE "/deploy/jackets/duemilanove-16.toml");
   if (!profile) {
     fmt::print(stderr, "{}\n", profile.error().message);
     return 1;
   }
+  profile->rendering = Rendering::places;  // the dearer one
   const nlohmann::json results = measure(profile.value());
   fmt::print("{:<34}{:>10}{:>10}  unit\n", "figure", "p50", "p99");
   for (const auto& [name, figure] : results.items()) {

@@ -13,7 +13,7 @@
 #include "integration/app/running_pair.hpp"
 #include "integration/link_faults/fault_table.hpp"
 #include "jacket/load_jacket_profile.hpp"
-#include "link/serial_port.hpp"
+#include "wire/serial_port.hpp"
 
 namespace telehug {
 namespace {

@@ -48,6 +48,7 @@ class PassivePipelineTest : public testing::Test {
   const FeltAnswers& touch(int box, Phase phase = Phase::down) { return touch(contact_in(box, 1, phase)); }
   void pass(Duration time) {
     clock.advance(time);
+    pipeline.tick(clock.now());
     safety.tick(clock.now());
   }
   [[nodiscard]] std::vector<int> running() const { return jacket.running(clock.now()); }
@@ -250,6 +251,70 @@ TEST_F(PassivePipelineTest, AnswersAContactOfANewSessionThatResemblesOneOfTheOld
   session = "00000000000000000000000000000abc";
   event.sequence = 0;
   EXPECT_EQ(touch(2, Phase::move).size(), 1U);  // its down was lost long ago
+}
+
+// The same motors, felt by the place of a touch: in a row across the chest.
+class PassivePipelineOfPlaces : public PassivePipelineTest {
+ protected:
+  PassivePipelineOfPlaces() {
+    profile.rendering = Rendering::places;
+    for (int i = 0; i < 3; ++i)
+      profile.actuators[static_cast<std::size_t>(i)].place = {(i - 1) * 0.5, 0.25};
+    places.emplace(SenderNumber{0}, profile, safety, turn, 200ms, other_session, clock, metrics);
+  }
+
+  const FeltAnswers& feel(Contact contact) {
+    event = event_of(event.sequence + 1, {contact});
+    event.session = session;
+    event.sent_time_ns = to_ns(clock.now());
+    if (contact.phase != Phase::move) event.transitions.push_back(transition_of(event.sequence, contact));
+    return places->process(event, clock.now());
+  }
+  void go_on(Duration time) {
+    for (Duration passed{}; passed < time; passed += 10ms) {
+      clock.advance(10ms);
+      safety.on_heartbeat(0, clock.now());
+      places->tick(clock.now());
+      safety.tick(clock.now());
+    }
+  }
+
+  std::optional<PassivePipeline> places;
+};
+
+TEST_F(PassivePipelineOfPlaces, FeelsATapForAsLongAsItTakesAMotorToBeFelt) {
+  EXPECT_THAT(feel(contact_in(3)).at(0).actuators, ElementsAre(2));
+  EXPECT_THAT(running(), ElementsAre(1));
+  go_on(30ms);
+  Contact up = contact_in(3, 1, Phase::up);
+  up.gesture = Gesture::tap;
+  feel(up);
+  go_on(50ms);
+  EXPECT_THAT(running(), ElementsAre(1));
+  go_on(30ms);
+  EXPECT_THAT(running(), IsEmpty());
+}
+
+TEST_F(PassivePipelineOfPlaces, LetsAHoldFadeBetweenTwoEvents) {
+  Contact hold = contact_in(3, 1, Phase::move);
+  hold.gesture = Gesture::hold;
+  feel(hold);
+  for (int i = 0; i < 8; ++i) {
+    go_on(100ms);
+    feel(hold);
+  }
+  const int before = jacket.intensity(1, clock.now());
+  go_on(150ms);
+  EXPECT_LT(jacket.intensity(1, clock.now()), before);
+  go_on(60ms);
+  EXPECT_THAT(running(), IsEmpty()) << "no event vouches for it any more";
+}
+
+TEST_F(PassivePipelineOfPlaces, MovesNothingOnItsOwnAfterAStop) {
+  feel(contact_in(3));
+  safety.stop("enough", clock.now());
+  go_on(100ms);
+  EXPECT_THAT(running(), IsEmpty());
 }
 
 // Another sender to the same jacket.

@@ -9,7 +9,7 @@
 
 #include "doubles/fake_jacket_link.hpp"
 #include "jacket/load_jacket_profile.hpp"
-#include "jacket/touch_to_drives.hpp"
+#include "rendering/jacket_renderer.hpp"
 #include "safety/safety_stage.hpp"
 #include "unit/jacket/jacket_builders.hpp"
 
@@ -20,6 +20,7 @@ using ::testing::ElementsAre;
 using ::testing::IsEmpty;
 
 constexpr int full = 197;  // step 24 of 31: the last within 0.8
+constexpr Duration started = 40ms;
 constexpr int least = 90;  // step 11 of 31: the first from 0.35 on
 
 JacketProfile shipped() {
@@ -37,16 +38,21 @@ std::string text(const MotorCommands& commands) {
   return all;
 }
 
-// The commands of the first frame that a single touch causes.
-std::string commands_for(const Contact& contact) {
+// The commands of the last frame that a single touch has caused after this time.
+std::string commands_for(const Contact& contact, Duration after = {}) {
   const JacketProfile profile = shipped();
   FakeJacket jacket;
   SafetyStage safety(std::make_unique<FakeJacketLink>(jacket), profile, {});
-  const Timestamp now = from_ns(1'000'000'000);
+  Timestamp now = from_ns(1'000'000'000);
   safety.tick(now);
   safety.on_heartbeat(0, now);
-  safety.apply(0, touch_to_drives(event_of(1, {contact}), {}, profile, {}, now, 200ms).drives, now);
-  return jacket.frames.empty() ? "" : text(jacket.frames.front().commands);
+  JacketRenderer renderer(profile, 200ms);
+  safety.apply(0, renderer.plan(event_of(1, {contact}), {}, now).drives, now);
+  if (after > 0ms) {
+    now += after;
+    safety.apply(0, renderer.tick(now), now);
+  }
+  return jacket.frames.empty() ? "" : text(jacket.frames.back().commands);
 }
 
 TEST(Duemilanove16, drives_exactly_the_motors_of_each_box) {
@@ -74,9 +80,16 @@ TEST(Duemilanove16, spreads_strength_between_the_least_that_turns_and_the_most_a
   for (const auto& [strength, intensity] : golden) {
     Contact touch = contact_in(8);
     touch.strength = strength;
-    const std::string expected = intensity == 0 ? "" : fmt::format("6={} 200ms", intensity);
-    EXPECT_EQ(commands_for(touch), expected) << "strength " << strength;
+    const std::string expected = intensity == 0 ? "" : fmt::format("6={} 160ms", intensity);
+    EXPECT_EQ(commands_for(touch, started), strength < 1 ? expected : fmt::format("6={} 200ms", full))
+        << "strength " << strength;
   }
+}
+
+TEST(Duemilanove16, starts_its_motors_with_all_that_is_allowed) {
+  Contact touch = contact_in(8);
+  touch.strength = 0.25;
+  EXPECT_EQ(commands_for(touch), fmt::format("6={} 60ms", full)) << "and off by itself if nobody comes back";
 }
 
 TEST(Duemilanove16, covers_four_rows_with_all_sixteen_channels) {

@@ -10,7 +10,7 @@
 #include <random>
 
 #include "doubles/fake_jacket_link.hpp"
-#include "jacket/touch_to_drives.hpp"
+#include "rendering/jacket_renderer.hpp"
 #include "safety/safety_stage.hpp"
 #include "unit/jacket/jacket_builders.hpp"
 
@@ -84,6 +84,7 @@ class Adversary {
 
 JacketProfile random_profile(Adversary& adversary) {
   JacketProfile profile = profile_of({}, adversary.one_in(2) ? Uncovered::nearest : Uncovered::none);
+  if (adversary.one_in(2)) profile.rendering = Rendering::places;
   for (int id = 1; id <= 8; ++id) {
     Actuator made = motor(static_cast<std::uint8_t>(id), {}, {});
     made.channel = static_cast<std::uint8_t>(15 - id);
@@ -93,6 +94,9 @@ JacketProfile random_profile(Adversary& adversary) {
     }
     made.max_strength = adversary.real(0, 1);
     made.min_strength = adversary.real(0, made.max_strength);
+    made.gamma = adversary.real(0.2, 5);
+    made.kick = std::chrono::milliseconds(adversary.whole(0, 100));
+    made.enabled = !adversary.one_in(8);
     profile.actuators.push_back(made);
   }
   return profile;
@@ -209,18 +213,17 @@ class HauntedJacket {
 
   // Drives that no planner would make, or those that the planner makes of touches that nobody would send.
   void apply() {
-    if (adversary_.one_in(2)) {
-      const TouchEvent event = adversary_.event();
-      const auto duration = std::chrono::milliseconds(adversary_.whole(-10, 1000));
-      plan_ =
-          touch_to_drives(event, {event.transitions.data(), event.transitions.size()}, profile_, plan_, now_, duration);
-    } else {
-      plan_.drives = adversary_.drives(now_);
-    }
-    const SafetyVerdict verdict = safety_.apply(adversary_.sender(), plan_.drives, now_);
+    const SafetyVerdict verdict = safety_.apply(adversary_.sender(), some_drives(), now_);
     if (safety_.stopped()) {
       EXPECT_EQ(verdict.outcome, FeltOutcome::stopped);
     }
+  }
+
+  Drives some_drives() {
+    if (adversary_.one_in(2)) return adversary_.drives(now_);
+    if (adversary_.one_in(2)) return renderer_.tick(now_);
+    const TouchEvent event = adversary_.event();
+    return renderer_.plan(event, {event.transitions.data(), event.transitions.size()}, now_).drives;
   }
 
   void check_frames() {
@@ -260,7 +263,7 @@ class HauntedJacket {
   JacketProfile profile_;
   SafetyLimits limits_;
   SafetyStage safety_;
-  JacketPlan plan_;
+  JacketRenderer renderer_{profile_, std::chrono::milliseconds(adversary_.whole(-10, 1000))};
   std::array<double, 16> most_{};
   Timestamp now_ = from_ns(100'000'000'000);
   std::array<Timestamp, max_senders> heartbeats_{};
