@@ -21,17 +21,38 @@ struct FakeJacket {
     Timestamp end;
   };
 
+  struct HeatFrame {
+    Timestamp time;
+    HeaterCommands commands;
+  };
+  struct Heater {
+    double celsius = 0;
+    Timestamp end;
+  };
+
   LinkStatus status{.state = LinkState::armed, .device = "fake", .problem = {}, .motor_count = 16};
   bool loses_frames = false;                // send() succeeds, the jacket hears nothing
   bool accepts_frames = true;               // send() fails otherwise
   LinkState next_state = LinkState::armed;  // taken over by the next poll()
   std::vector<Frame> frames;
   std::array<Motor, 16> motors{};
+  bool has_heaters = true;  // heat() fails otherwise
+  std::vector<HeatFrame> heat_frames;
+  std::array<Heater, 2> heaters{};
   std::size_t stops = 0;
+  struct Stop {
+    Timestamp time;
+    std::size_t after_frames;  // how many had left before
+  };
+  std::vector<Stop> stop_log;
   std::size_t polls = 0;
 
   [[nodiscard]] std::uint8_t intensity(std::size_t channel, Timestamp now) const {
     return motors.at(channel).end > now ? motors.at(channel).intensity : std::uint8_t{0};
+  }
+  // Set-point of a heater; 0: off.
+  [[nodiscard]] double heats(std::size_t heater, Timestamp now) const {
+    return heaters.at(heater).end > now ? heaters.at(heater).celsius : 0;
   }
   [[nodiscard]] std::vector<int> running(Timestamp now) const {
     std::vector<int> channels;
@@ -51,6 +72,7 @@ class FakeJacketLink final : public JacketLink {
     if (jacket_.next_state == LinkState::armed && jacket_.status.state != LinkState::armed) {
       ++jacket_.status.reconnects;
       jacket_.motors = {};  // the firmware starts anew with everything off
+      jacket_.heaters = {};
     }
     jacket_.status.state = jacket_.next_state;
   }
@@ -66,9 +88,23 @@ class FakeJacketLink final : public JacketLink {
     return true;
   }
 
-  void stop_all(Timestamp) override {
+  bool heat(const HeaterCommands& commands, Timestamp now) override {
+    if (jacket_.status.state != LinkState::armed || !jacket_.accepts_frames || !jacket_.has_heaters) return false;
+    jacket_.heat_frames.push_back({now, commands});
+    if (jacket_.loses_frames) return true;
+    for (const HeaterCommand& command : commands) {
+      jacket_.heaters.at(command.heater) = {command.celsius,
+                                            now + std::clamp(command.duration, Duration{}, Duration{250ms})};
+    }
+    return true;
+  }
+
+  void stop_all(Timestamp now) override {
     ++jacket_.stops;
-    if (!jacket_.loses_frames && jacket_.status.state == LinkState::armed) jacket_.motors = {};
+    jacket_.stop_log.push_back({now, jacket_.frames.size()});
+    if (jacket_.loses_frames || jacket_.status.state != LinkState::armed) return;
+    jacket_.motors = {};
+    jacket_.heaters = {};
   }
 
   [[nodiscard]] const LinkStatus& status() const override { return jacket_.status; }
