@@ -119,11 +119,18 @@ struct SafetyConfig {
   double max_strength = 1.0;  // 0..1
   int drive_ms = 200;
   int heartbeat_timeout_ms = 250;
+  double max_celsius = 40;
+};
+
+struct ConsentConfig {
+  std::string quiet_hours;  // read it with parse_quiet_hours()
+  std::string file;         // empty: see consent_file()
 };
 
 struct PassiveConfig {
   JacketConfig jacket;
   SafetyConfig safety;
+  ConsentConfig consent;
   PeerConfig peer;
   ControlConfig control;
   LogConfig log;

@@ -7,6 +7,7 @@
 
 #include "config/key.hpp"
 #include "config/locator.hpp"
+#include "config/quiet_hours_text.hpp"
 
 namespace telehug {
 namespace {
@@ -290,6 +291,18 @@ std::vector<Key> keys_of(PassiveConfig& c) {
        "How long one command drives a motor; touches that last renew it."},
       {"safety", "heartbeat_timeout_ms", &c.safety.heartbeat_timeout_ms, "ms", heartbeat_timeout_of_drives,
        "Without a heartbeat for so long everything is turned off."},
+      {"safety", "max_celsius", &c.safety.max_celsius, "C", Range{0, 40},
+       "No heater is ever set warmer; below 32, about what skin has under clothes, none heats at all."},
+
+      {"consent", "quiet_hours", &c.consent.quiet_hours, "", parsed_by(parse_quiet_hours),
+       "When nothing is felt: local times such as \"20:30-07:00\", several with commas between them; empty: never."},
+      {"consent",
+       "file",
+       &c.consent.file,
+       "",
+       {},
+       "Where `telehug pause` and `telehug mute` are kept over restarts; empty: in the state folder of the service or "
+       "user."},
   };
   append(rows, peer_rows(c.peer));
   append(rows, common_rows(c.control, c.log));

@@ -48,6 +48,10 @@ std::filesystem::path pairs_folder(const PeerConfig& config, Side side) {
   return state_folder() / "pairs" / (side == Side::active ? "active" : "passive");
 }
 
+std::filesystem::path consent_file(const ConsentConfig& config) {
+  return config.file.empty() ? state_folder() / "consent.json" : std::filesystem::path(config.file);
+}
+
 std::filesystem::path installed_jacket_file(const std::filesystem::path& given) {
   const std::filesystem::path installed = std::filesystem::path(TELEHUG_DATA_DIR) / "jackets";
   std::error_code ignored;

@@ -29,7 +29,8 @@ struct FakeJacket {
     Timestamp end;
   };
 
-  LinkStatus status{.state = LinkState::armed, .device = "fake", .problem = {}, .motor_count = 16};
+  LinkStatus status{
+      .state = LinkState::armed, .device = "fake", .problem = {}, .motor_count = 16, .heater_count = 2};
   bool loses_frames = false;                // send() succeeds, the jacket hears nothing
   bool accepts_frames = true;               // send() fails otherwise
   LinkState next_state = LinkState::armed;  // taken over by the next poll()
@@ -38,6 +39,11 @@ struct FakeJacket {
   std::vector<HeatFrame> heat_frames;
   std::array<Heater, 2> heaters{};
   std::size_t stops = 0;
+  struct Stop {
+    Timestamp time;
+    std::size_t after_frames;  // how many had left before
+  };
+  std::vector<Stop> stop_log;
   std::size_t polls = 0;
 
   [[nodiscard]] std::uint8_t intensity(std::size_t channel, Timestamp now) const {
@@ -96,8 +102,9 @@ class FakeJacketLink final : public JacketLink {
     return true;
   }
 
-  void stop_all(Timestamp) override {
+  void stop_all(Timestamp now) override {
     ++jacket_.stops;
+    jacket_.stop_log.push_back({now, jacket_.frames.size()});
     if (jacket_.loses_frames || jacket_.status.state != LinkState::armed) return;
     jacket_.motors = {};
     jacket_.heaters = {};

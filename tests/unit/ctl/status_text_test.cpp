@@ -72,6 +72,15 @@ TEST(StatusText, TellsOfEveryHeaterInALineOfItsOwn) {
                               "  heater 1     no reading, sensor open\n"));
 }
 
+TEST(StatusText, SaysWhyNothingIsFeltAndHowEachHeaterIs) {
+  const std::string text =
+      status_text({{"consent", {{"name", "paused"}, {"why", "until 15:30"}, {"muted_boxes", {8}}}},
+                   {"heaters", {{{"name", "left"}, {"state", "ready"}}, {{"name", "right"}, {"state", "fault"}}}}});
+  EXPECT_THAT(text, HasSubstr("consent      paused: until 15:30, muted_boxes [8]\n"));
+  EXPECT_THAT(text, HasSubstr("heaters      left, state ready\n"));
+  EXPECT_THAT(text, HasSubstr("heaters      right, state fault\n"));
+}
+
 TEST(StatusText, LetsNoControlCharacterThrough) {
   const std::string text = status_text({{"peer", {{"connected", false}, {"reason", "\x1b]0;x\x07\n"}}}});
   EXPECT_THAT(text, Not(HasSubstr("\x1b")));
