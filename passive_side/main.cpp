@@ -10,6 +10,7 @@
 #include "config/places.hpp"
 #include "jacket/load_jacket_profile.hpp"
 #include "link/make_link.hpp"
+#include "panel_options.hpp"
 #include "passive_daemon.hpp"
 #include "service/control_socket.hpp"
 
@@ -23,7 +24,7 @@ Examples:
   telehug-passive run --set jacket.link=simulated
 
 Exit codes: 0 ok, 1 fault of telehug, 2 wrong command line, 3 faults in the configuration or the jacket's profile,
-  4 the jacket can't be used, 10 another telehug-passive runs, 13 DDS can't be set up,
+  4 the jacket, its stop button or its power line can't be used, 10 another telehug-passive runs, 13 DDS can't be set up,
   15 the pair was revoked or has expired.)";
 
 struct Options {
@@ -52,9 +53,11 @@ ExitCode run(const Options& options) {
   link_options.baud = static_cast<unsigned>(config->jacket.baud);
   auto link = make_link(config->jacket.link, link_options);
   if (!link) return fail(ExitCode::device, link.error().message);
+  auto lines = request_lines(panel_options(config->gpio));
+  if (!lines) return fail(ExitCode::device, lines.error().message);
   const SteadyClock clock;
   try {
-    PassiveDaemon daemon(*config, *std::move(found), *std::move(profile), *std::move(link), clock);
+    PassiveDaemon daemon(*config, *std::move(found), *std::move(profile), *std::move(link), *std::move(lines), clock);
     return daemon.run(signals);
   } catch (const AlreadyRunning& running) {
     return fail(ExitCode::already_running, running.what());

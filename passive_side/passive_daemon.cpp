@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "daemon/daemon_settings.hpp"
+#include "panel_options.hpp"
 #include "peer/session_id.hpp"
 
 namespace telehug {
@@ -25,7 +26,7 @@ SafetyLimits safety_limits(const SafetyConfig& config) {
 }  // namespace
 
 PassiveDaemon::PassiveDaemon(const PassiveConfig& config, Memberships memberships, JacketProfile profile,
-                             std::unique_ptr<JacketLink> link, const Clock& clock)
+                             std::unique_ptr<JacketLink> link, PanelLines lines, const Clock& clock)
     : config_(config),
       left_out_(std::move(memberships.left_out)),
       clock_(clock),
@@ -45,6 +46,7 @@ PassiveDaemon::PassiveDaemon(const PassiveConfig& config, Memberships membership
                [this](Membership membership, const Senders::List& others) {
                  return connect(std::move(membership), others);
                }),
+      panel_(std::move(lines), panel_options(config.gpio), panel_calls(), clock),
       control_(std::make_unique<ControlServer>(control_options(config.control, Side::passive))) {
   answer_commands();
   senders_.open(std::move(memberships.members));
@@ -74,6 +76,7 @@ std::shared_ptr<ConnectedSender> PassiveDaemon::connect(Membership membership, c
 
 ExitCode PassiveDaemon::run(Signals& signals) {
   control_->start();
+  panel_.start();  // before anything can be driven
   drive_thread_ = std::thread([this] { drive_loop(); });
   notifier_.ready();
   spdlog::info("telehug-passive {} runs; jacket: {} on {}", version, profile_.name, config_.jacket.link);
@@ -83,11 +86,14 @@ ExitCode PassiveDaemon::run(Signals& signals) {
     spdlog::error("{}", pair);
   for (const std::string& note : profile_.notes)
     spdlog::info("{}", note);
+  for (const std::string& problem : panel_.status().problems)
+    spdlog::warn("{}", problem);
   bool paired = true;
   while (signals.wait(housekeeping_round) != SignalRequest::stop) {
     paired = follow_pairs();
     if (!paired) break;
     tell_watchers();
+    answer_hug_button();
     keep_connections();
   }
   notifier_.stopping();
@@ -110,6 +116,7 @@ bool PassiveDaemon::follow_pairs() {
 void PassiveDaemon::end_thread() {
   ending_ = true;
   if (drive_thread_.joinable()) drive_thread_.join();
+  panel_.stop();
   // The queue's own destructor (Boost 1.74) does not destroy what it holds.
   felt_.consume_all([](const GivenAnswer&) {});
   senders_.close();
@@ -131,6 +138,7 @@ void PassiveDaemon::drive_loop() {
     safety_.tick(now);
     tell_running(now);
     tell_state(now);
+    tell_panel(now);
     notifier_.alive(now);
   }
   safety_.stop("telehug-passive ends", clock_.now());

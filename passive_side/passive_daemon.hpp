@@ -17,6 +17,7 @@
 #include "connected_sender.hpp"
 #include "daemon/connections.hpp"
 #include "daemon/stop_switch.hpp"
+#include "gpio/panel.hpp"
 #include "hug_back.hpp"
 #include "jacket/jacket_profile.hpp"
 #include "passive_pipeline.hpp"
@@ -59,7 +60,7 @@ class PassiveDaemon {
  public:
   // Throws AlreadyRunning, std::runtime_error or std::invalid_argument with a sentence for a person.
   PassiveDaemon(const PassiveConfig& config, Memberships memberships, JacketProfile profile,
-                std::unique_ptr<JacketLink> link, const Clock& clock);
+                std::unique_ptr<JacketLink> link, PanelLines lines, const Clock& clock);
   ~PassiveDaemon();
   PassiveDaemon(const PassiveDaemon&) = delete;
   PassiveDaemon& operator=(const PassiveDaemon&) = delete;
@@ -81,17 +82,21 @@ class PassiveDaemon {
   void follow_stops(Timestamp now);
   void tell_running(Timestamp now);
   void tell_state(Timestamp now);
+  void tell_panel(Timestamp now);
 
   // Housekeeping
   [[nodiscard]] bool follow_pairs();
   void tell_watchers();
   void keep_connections();
   void answer_commands();
+  void answer_hug_button();
   nlohmann::json order_hug(const nlohmann::json& request);
   nlohmann::json status() const;
+  void add_panel(nlohmann::json& status) const;
   [[nodiscard]] std::vector<ConnectionStatus> connections() const;
   nlohmann::json problems(const DriveThreadState& state, const std::vector<ConnectionStatus>& connections) const;
   [[nodiscard]] DriveThreadState state() const;
+  [[nodiscard]] PanelCalls panel_calls();
 
   PassiveConfig config_;
   const std::vector<std::string> left_out_;  // pairs that could not be used at the start, and why
@@ -117,6 +122,7 @@ class PassiveDaemon {
   // Between the threads
   LatestSlot<bool> bell_;  // rung after every event that came
   StopSwitch stop_;
+  std::atomic<bool> hug_pressed_ = false;  // on the jacket's button, and not answered yet
   std::atomic<bool> ending_ = false;
   mutable std::mutex state_mutex_;
   DriveThreadState state_;
@@ -126,11 +132,13 @@ class PassiveDaemon {
   // Housekeeping
   SayOnChange say_jacket_;
 
-  HugBack hug_back_;  // the control thread's
+  std::mutex hug_mutex_;
+  HugBack hug_back_;  // guarded by it
   Counter& hugs_sent_;
   Counter& hugs_too_soon_;
 
   Senders senders_;
+  Panel panel_;
   std::unique_ptr<ControlServer> control_;
   std::thread drive_thread_;
 };
