@@ -10,7 +10,6 @@
 #include "config/places.hpp"
 #include "jacket/load_jacket_profile.hpp"
 #include "link/make_link.hpp"
-#include "panel_options.hpp"
 #include "passive_daemon.hpp"
 #include "service/control_socket.hpp"
 
@@ -53,14 +52,14 @@ ExitCode run(const Options& options) {
   link_options.baud = static_cast<unsigned>(config->jacket.baud);
   auto link = make_link(config->jacket.link, link_options);
   if (!link) return fail(ExitCode::device, link.error().message);
-  auto lines = request_lines(panel_options(config->gpio));
-  if (!lines) return fail(ExitCode::device, lines.error().message);
   const SteadyClock clock;
   try {
-    PassiveDaemon daemon(*config, *std::move(found), *std::move(profile), *std::move(link), *std::move(lines), clock);
+    PassiveDaemon daemon(*config, *std::move(found), *std::move(profile), *std::move(link), clock);
     return daemon.run(signals);
   } catch (const AlreadyRunning& running) {
     return fail(ExitCode::already_running, running.what());
+  } catch (const LineMissing& missing) {
+    return fail(ExitCode::device, missing.what());
   } catch (const DdsError& error) {
     return fail(ExitCode::network, error.what());
   }

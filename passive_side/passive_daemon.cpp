@@ -5,7 +5,6 @@
 #include <stdexcept>
 
 #include "daemon/daemon_settings.hpp"
-#include "panel_options.hpp"
 #include "peer/session_id.hpp"
 
 namespace telehug {
@@ -26,7 +25,7 @@ SafetyLimits safety_limits(const SafetyConfig& config) {
 }  // namespace
 
 PassiveDaemon::PassiveDaemon(const PassiveConfig& config, Memberships memberships, JacketProfile profile,
-                             std::unique_ptr<JacketLink> link, PanelLines lines, const Clock& clock)
+                             std::unique_ptr<JacketLink> link, const Clock& clock)
     : config_(config),
       left_out_(std::move(memberships.left_out)),
       clock_(clock),
@@ -46,8 +45,8 @@ PassiveDaemon::PassiveDaemon(const PassiveConfig& config, Memberships membership
                [this](Membership membership, const Senders::List& others) {
                  return connect(std::move(membership), others);
                }),
-      panel_(std::move(lines), panel_options(config.gpio), panel_calls(), clock),
       control_(std::make_unique<ControlServer>(control_options(config.control, Side::passive))) {
+  panel_ = make_panel();  // not before it is known that no other daemon has its lines
   answer_commands();
   senders_.open(std::move(memberships.members));
 }
@@ -76,7 +75,7 @@ std::shared_ptr<ConnectedSender> PassiveDaemon::connect(Membership membership, c
 
 ExitCode PassiveDaemon::run(Signals& signals) {
   control_->start();
-  panel_.start();  // before anything can be driven
+  panel_->start();  // before anything can be driven
   drive_thread_ = std::thread([this] { drive_loop(); });
   notifier_.ready();
   spdlog::info("telehug-passive {} runs; jacket: {} on {}", version, profile_.name, config_.jacket.link);
@@ -86,7 +85,7 @@ ExitCode PassiveDaemon::run(Signals& signals) {
     spdlog::error("{}", pair);
   for (const std::string& note : profile_.notes)
     spdlog::info("{}", note);
-  for (const std::string& problem : panel_.status().problems)
+  for (const std::string& problem : panel_->status().problems)
     spdlog::warn("{}", problem);
   bool paired = true;
   while (signals.wait(housekeeping_round) != SignalRequest::stop) {
@@ -116,7 +115,7 @@ bool PassiveDaemon::follow_pairs() {
 void PassiveDaemon::end_thread() {
   ending_ = true;
   if (drive_thread_.joinable()) drive_thread_.join();
-  panel_.stop();
+  panel_->stop();
   // The queue's own destructor (Boost 1.74) does not destroy what it holds.
   felt_.consume_all([](const GivenAnswer&) {});
   senders_.close();

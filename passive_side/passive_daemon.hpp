@@ -7,6 +7,7 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <thread>
 #include <vector>
@@ -54,13 +55,19 @@ struct GivenAnswer {
   SenderNumber sender = 0;
 };
 
+// A line of the configuration that the jacket is not driven without can't be had.
+class LineMissing : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
 // The child's PC: one thread from the touch events to the jacket, the calling one for everything that may take its
 // time. Everyone whom the wearer has granted a pair may touch, each through a connection of their own.
 class PassiveDaemon {
  public:
-  // Throws AlreadyRunning, std::runtime_error or std::invalid_argument with a sentence for a person.
+  // Throws AlreadyRunning, LineMissing, std::runtime_error or std::invalid_argument with a sentence for a person.
   PassiveDaemon(const PassiveConfig& config, Memberships memberships, JacketProfile profile,
-                std::unique_ptr<JacketLink> link, PanelLines lines, const Clock& clock);
+                std::unique_ptr<JacketLink> link, const Clock& clock);
   ~PassiveDaemon();
   PassiveDaemon(const PassiveDaemon&) = delete;
   PassiveDaemon& operator=(const PassiveDaemon&) = delete;
@@ -96,7 +103,7 @@ class PassiveDaemon {
   [[nodiscard]] std::vector<ConnectionStatus> connections() const;
   nlohmann::json problems(const DriveThreadState& state, const std::vector<ConnectionStatus>& connections) const;
   [[nodiscard]] DriveThreadState state() const;
-  [[nodiscard]] PanelCalls panel_calls();
+  [[nodiscard]] std::unique_ptr<Panel> make_panel();
 
   PassiveConfig config_;
   const std::vector<std::string> left_out_;  // pairs that could not be used at the start, and why
@@ -138,7 +145,7 @@ class PassiveDaemon {
   Counter& hugs_too_soon_;
 
   Senders senders_;
-  Panel panel_;
+  std::unique_ptr<Panel> panel_;
   std::unique_ptr<ControlServer> control_;
   std::thread drive_thread_;
 };

@@ -4,10 +4,11 @@
 #include <algorithm>
 
 #include "daemon/status_parts.hpp"
-#include "panel_options.hpp"
 #include "passive_daemon.hpp"
 
 namespace telehug {
+
+namespace {
 
 PanelOptions panel_options(const GpioConfig& config) {
   const Pull pull = config.button_pull == "up" ? Pull::up : config.button_pull == "down" ? Pull::down : Pull::none;
@@ -21,16 +22,22 @@ PanelOptions panel_options(const GpioConfig& config) {
           .hold_to_resume = std::chrono::seconds(config.stop_button_resume_s)};
 }
 
-PanelCalls PassiveDaemon::panel_calls() {
-  return {.hold =
-              [this](const std::string& reason, const std::string& obstacle) {
-                stop_.hold(reason, obstacle);
-                bell_.put(true);  // the drive thread need not finish its pause
-              },
-          .release = [this] { stop_.release(); },
-          .resume = [this] { stop_.resume(); },
-          .stopped = [this] { return stop_.stopped(); },
-          .hug = [this] { hug_pressed_ = true; }};
+}  // namespace
+
+std::unique_ptr<Panel> PassiveDaemon::make_panel() {
+  const PanelOptions options = panel_options(config_.gpio);
+  auto lines = request_lines(options);
+  if (!lines) throw LineMissing(lines.error().message);
+  PanelCalls calls{.hold =
+                       [this](const std::string& reason, const std::string& obstacle) {
+                         stop_.hold(reason, obstacle);
+                         bell_.put(true);  // the drive thread need not finish its pause
+                       },
+                   .release = [this] { stop_.release(); },
+                   .resume = [this] { stop_.resume(); },
+                   .stopped = [this] { return stop_.stopped(); },
+                   .hug = [this] { hug_pressed_ = true; }};
+  return std::make_unique<Panel>(*std::move(lines), options, std::move(calls), clock_);
 }
 
 void PassiveDaemon::tell_panel(Timestamp now) {
@@ -40,7 +47,7 @@ void PassiveDaemon::tell_panel(Timestamp now) {
   situation.stopped = safety_.stopped();
   situation.sender = std::ranges::any_of(senders, [now](const auto& sender) { return sender->connection.alive(now); });
   situation.touched = !told_running_.empty();
-  panel_.tell(situation, now);
+  panel_->tell(situation, now);
 }
 
 void PassiveDaemon::answer_hug_button() {
@@ -51,7 +58,7 @@ void PassiveDaemon::answer_hug_button() {
 }
 
 void PassiveDaemon::add_panel(nlohmann::json& status) const {
-  const PanelStatus panel = panel_.status();
+  const PanelStatus panel = panel_->status();
   if (panel.stop_button) status["panel"]["stop_button"] = panel.stop_pressed ? "pressed" : "released";
   if (panel.power_line) status["panel"]["power"] = panel.power;
   for (const std::string& problem : panel.problems)

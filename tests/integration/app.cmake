@@ -36,3 +36,6 @@ telehug_test(test_app_look KIND integration SUBJECT face
 telehug_test(test_app_hug KIND integration SUBJECT jacket
   SOURCES integration/app/hug_test.cpp DEPS running_pair PkgConfig::sdbus)
 set_tests_properties(test_app_hug PROPERTIES RUN_SERIAL TRUE)  # as test_app_silence
+telehug_test(test_app_panel KIND integration SUBJECT jacket
+  SOURCES integration/app/panel_test.cpp DEPS running_pair)
+set_tests_properties(test_app_panel PROPERTIES RUN_SERIAL TRUE)  # as test_app_silence
