@@ -140,6 +140,16 @@ TEST_F(AnEmergencyStop, NoticesAPressThatIsOverWhenItIsToldOfIt) {
   EXPECT_FALSE(button_.pressed());
 }
 
+TEST_F(AnEmergencyStop, KnowsHowLongAPressWasThatIsOverWhenItIsToldOfIt) {
+  press(200ms);
+  const Timestamp pressed = clock_.now();
+  clock_.advance(6s);
+  button_.level(true, pressed);
+  button_.level(false, pressed + 5s);
+  look();
+  EXPECT_EQ(resumes_, 1);
+}
+
 TEST_F(AnEmergencyStop, DoesNotResumeByThePressThatStopped) {
   press(8s);
   EXPECT_TRUE(stopped_);

@@ -142,6 +142,17 @@ TEST_F(AChipOfTheKernel, DebouncesALineIfAsked) {
   EXPECT_EQ(change->time, now_ + 14ms);
   EXPECT_TRUE((*line)->level().value());
   EXPECT_FALSE((*line)->next(now_ + 15ms).value());
+
+  // A whole release that is told of late.
+  kernel_.move(0, false, to_ns(now_ + 100ms));
+  kernel_.move(0, true, to_ns(now_ + 150ms));
+  const auto let_go = (*line)->next(now_ + 200ms).value();
+  ASSERT_TRUE(let_go);
+  EXPECT_FALSE(let_go->active);
+  EXPECT_EQ(let_go->time, now_ + 110ms);
+  const auto pressed = (*line)->next(now_ + 200ms).value();
+  ASSERT_TRUE(pressed);
+  EXPECT_TRUE(pressed->active);
 }
 
 TEST_F(AChipOfTheKernel, SaysThatALineIsLostWhenItIsUnplugged) {
