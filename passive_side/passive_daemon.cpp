@@ -52,6 +52,7 @@ PassiveDaemon::PassiveDaemon(const PassiveConfig& config, Memberships membership
                }),
       control_(std::make_unique<ControlServer>(control_options(config.control, Side::passive))) {
   wanted_ = consent_.consent();
+  panel_ = make_panel();  // not before it is known that no other daemon has its lines
   answer_commands();
   senders_.open(std::move(memberships.members));
 }
@@ -80,6 +81,7 @@ std::shared_ptr<ConnectedSender> PassiveDaemon::connect(Membership membership, c
 
 ExitCode PassiveDaemon::run(Signals& signals) {
   control_->start();
+  panel_->start();  // before anything can be driven
   drive_thread_ = std::thread([this] { drive_loop(); });
   notifier_.ready();
   spdlog::info("telehug-passive {} runs; jacket: {} on {}", version, profile_.name, config_.jacket.link);
@@ -90,6 +92,8 @@ ExitCode PassiveDaemon::run(Signals& signals) {
   if (!config_.consent.quiet_hours.empty()) spdlog::info("quiet hours: {}", config_.consent.quiet_hours);
   for (const std::string& note : profile_.notes)
     spdlog::info("{}", note);
+  for (const std::string& problem : panel_->status().problems)
+    spdlog::warn("{}", problem);
   bool paired = true;
   while (signals.wait(housekeeping_round) != SignalRequest::stop) {
     paired = follow_pairs();
@@ -97,6 +101,7 @@ ExitCode PassiveDaemon::run(Signals& signals) {
     tzset();  // follows a time zone that is changed meanwhile; looks at no more than the file's date if it is not
     tell_watchers();
     tell_of_limits();
+    answer_hug_button();
     keep_connections();
   }
   notifier_.stopping();
@@ -119,6 +124,7 @@ bool PassiveDaemon::follow_pairs() {
 void PassiveDaemon::end_thread() {
   ending_ = true;
   if (drive_thread_.joinable()) drive_thread_.join();
+  panel_->stop();
   // The queue's own destructor (Boost 1.74) does not destroy what it holds.
   felt_.consume_all([](const GivenAnswer&) {});
   senders_.close();
@@ -144,6 +150,7 @@ void PassiveDaemon::drive_loop() {
     safety_.tick(now);
     tell_running(now);
     tell_state(now);
+    tell_panel(now);
     notifier_.alive(now);
   }
   safety_.stop("telehug-passive ends", clock_.now());

@@ -7,6 +7,7 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <thread>
 #include <vector>
@@ -18,6 +19,7 @@
 #include "consent_switch.hpp"
 #include "daemon/connections.hpp"
 #include "daemon/stop_switch.hpp"
+#include "gpio/panel.hpp"
 #include "hug_back.hpp"
 #include "jacket/jacket_profile.hpp"
 #include "jacket_trial.hpp"
@@ -64,11 +66,17 @@ struct GivenAnswer {
   SenderNumber sender = 0;
 };
 
+// A line of the configuration that the jacket is not driven without can't be had.
+class LineMissing : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
 // The child's PC: one thread from the touch events to the jacket, the calling one for everything that may take its
 // time. Everyone whom the wearer has granted a pair may touch, each through a connection of their own.
 class PassiveDaemon {
  public:
-  // Throws AlreadyRunning, std::runtime_error or std::invalid_argument with a sentence for a person.
+  // Throws AlreadyRunning, LineMissing, std::runtime_error or std::invalid_argument with a sentence for a person.
   PassiveDaemon(const PassiveConfig& config, Memberships memberships, JacketProfile profile,
                 std::unique_ptr<JacketLink> link, const Clock& clock);
   ~PassiveDaemon();
@@ -94,6 +102,7 @@ class PassiveDaemon {
   void follow_trial(Timestamp now);
   void tell_running(Timestamp now);
   void tell_state(Timestamp now);
+  void tell_panel(Timestamp now);
 
   // Housekeeping
   [[nodiscard]] bool follow_pairs();
@@ -101,6 +110,7 @@ class PassiveDaemon {
   void tell_of_limits();
   void keep_connections();
   void answer_commands();
+  void answer_hug_button();
   nlohmann::json order_hug(const nlohmann::json& request);
   nlohmann::json order_trial(const nlohmann::json& request);
   nlohmann::json describe_jacket(const nlohmann::json& request) const;
@@ -109,9 +119,11 @@ class PassiveDaemon {
   void add_safety_problems(nlohmann::json& list, const DriveThreadState& state) const;
   void add_safety_status(nlohmann::json& answer, const DriveThreadState& state) const;
   static void add_safety_counters(nlohmann::json& counters, const SafetyCounters& safety);
+  void add_panel(nlohmann::json& status) const;
   [[nodiscard]] std::vector<ConnectionStatus> connections() const;
   nlohmann::json problems(const DriveThreadState& state, const std::vector<ConnectionStatus>& connections) const;
   [[nodiscard]] DriveThreadState state() const;
+  [[nodiscard]] std::unique_ptr<Panel> make_panel();
 
   PassiveConfig config_;
   const std::vector<std::string> left_out_;  // pairs that could not be used at the start, and why
@@ -147,6 +159,7 @@ class PassiveDaemon {
   LatestSlot<OrderedTrial> trial_request_;
   StopSwitch stop_;
   ConsentSwitch consent_;
+  std::atomic<bool> hug_pressed_ = false;  // on the jacket's button, and not answered yet
   std::atomic<bool> ending_ = false;
   mutable std::mutex state_mutex_;
   DriveThreadState state_;
@@ -159,11 +172,13 @@ class PassiveDaemon {
   LimitNotes limit_notes_;
 
   std::uint64_t trials_ordered_ = 0;  // the control thread's
-  HugBack hug_back_;                  // likewise
+  std::mutex hug_mutex_;
+  HugBack hug_back_;  // guarded by it
   Counter& hugs_sent_;
   Counter& hugs_too_soon_;
 
   Senders senders_;
+  std::unique_ptr<Panel> panel_;
   std::unique_ptr<ControlServer> control_;
   std::thread drive_thread_;
 };

@@ -86,6 +86,7 @@ Json PassiveDaemon::status() const {
                  {"latency_ms", metrics_.latencies_json()}};
   add_safety_status(answer, now);
   add_connections(answer, connected);
+  add_panel(answer);
   if (now.last_felt) {
     answer["last_touch"] = felt_json(*now.last_felt);
     answer["last_touch"]["gesture"] = name_of(now.last_gesture);

@@ -127,10 +127,27 @@ struct ConsentConfig {
   std::string file;         // empty: see consent_file()
 };
 
+// Lines are named by their number or their name; empty: there is none.
+struct GpioConfig {
+  std::string chip;  // path, name or label; "simulated:DIR"
+  std::string stop_button_line;
+  bool stop_button_active_low = false;
+  int stop_button_resume_s = 5;  // 0: never
+  std::string hug_button_line;
+  bool hug_button_active_low = true;
+  std::string button_pull = "up";  // up, down, none
+  int debounce_ms = 10;
+  std::string power_line;
+  bool power_active_low = false;
+  std::string led_line;
+  bool led_active_low = false;
+};
+
 struct PassiveConfig {
   JacketConfig jacket;
   SafetyConfig safety;
   ConsentConfig consent;
+  GpioConfig gpio;
   PeerConfig peer;
   ControlConfig control;
   LogConfig log;
