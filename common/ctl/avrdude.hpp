@@ -33,7 +33,7 @@ struct FoundBootloader {
 
 [[nodiscard]] Result<Fuses> read_fuses(const AvrdudeWay& way);
 
-// `words` as mending_of() gives them.
+// `words` as mending_of() gives them. avrdude reads them again and compares.
 [[nodiscard]] Status write_fuses(const AvrdudeWay& way, const std::vector<std::string>& words);
 
 // Writes the flash and compares it; the number of bytes.

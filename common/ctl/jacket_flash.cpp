@@ -141,10 +141,7 @@ ExitCode mend_fuses(const AvrdudeWay& way, const Fuses& fuses, bool set_fuses) {
   say(fmt::format("{}\nsetting them: {}", list, fmt::join(words, " ")));
   if (const auto done = write_fuses(way, words); !done)
     return fail(ExitCode::device, "the fuses were not set: " + done.error().message);
-  const auto now = read_fuses(way);
-  if (!now) return fail(ExitCode::device, "the fuses can't be read again: " + now.error().message);
-  if (faults_of(*now).empty()) return ExitCode::ok;
-  return fail(ExitCode::device, "the chip did not take the fuses: check the programmer's cable, and try again");
+  return ExitCode::ok;
 }
 
 ExitCode flash_by_programmer(const AvrdudeWay& way, const fs::path& firmware, bool set_fuses) {
