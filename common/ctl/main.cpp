@@ -24,10 +24,12 @@ Examples:
   telehug face next                   the other person in the picture is meant
   telehug hug --seconds 4             felt by the wearer; from the wearer's PC seen and heard by the sender
   telehug jacket identify             on the wearer's PC: runs the motors one by one, telling their names
+  telehug jacket flash                writes the firmware into the jacket
   telehug pair invite                 make a pair of this PC and another one
 
-Exit codes: 0 ok, 1 fault of telehug, 2 wrong command line, 5 no daemon is running, 6 peer absent (--check),
-  7 not allowed to use the socket, 8 the daemon does not answer properly, 9 the daemon refused, 11 stopped or paused (--check),
+Exit codes: 0 ok, 1 fault of telehug, 2 wrong command line, 3 faulty configuration (jacket flash), 4 the jacket, its port,
+  the programmer or avrdude can't be used (jacket flash), 5 no daemon is running, 6 peer absent (--check), 7 not allowed to
+  use the socket, 8 the daemon does not answer properly, 9 the daemon refused, or you did when asked, 11 stopped or paused (--check),
   12 a side can't work (--check), 13 no network for `pair invite`.)";
 
 ExitCode parse_and_run(int argc, char** argv) {
