@@ -22,14 +22,14 @@ static_assert(window_readings <= 255, "counted in one byte");
 
 }  // namespace
 
-HeaterFault HeaterWatch::judge(int16_t temperature, int16_t set_point, bool heated, bool satisfied) {
+HeaterFault HeaterWatch::judge(int16_t temperature, int16_t set_point, bool heated) {
   if (!begun_) {
     begun_ = true;
     risen_to_ = temperature;
     window_start_ = temperature;
   }
   if (rises_too_fast(temperature, heated)) return HeaterFault::rises_too_fast;
-  if (does_not_rise(temperature, set_point, heated, satisfied)) return HeaterFault::no_rise;
+  if (does_not_rise(temperature, set_point, heated)) return HeaterFault::no_rise;
   return HeaterFault::none;
 }
 
@@ -44,8 +44,9 @@ bool HeaterWatch::rises_too_fast(int16_t temperature, bool heated) {
   return false;
 }
 
-bool HeaterWatch::does_not_rise(int16_t temperature, int16_t set_point, bool heated, bool satisfied) {
-  if (satisfied && heated) readings_heated_ = 0;
+bool HeaterWatch::does_not_rise(int16_t temperature, int16_t set_point, bool heated) {
+  if (readings_heated_ == 0 || set_point > goal_) goal_ = set_point;
+  if (temperature >= goal_) readings_heated_ = 0;
   if (heated) {
     ++readings_heated_;
   } else {

@@ -55,9 +55,7 @@ HeaterFault fault_of(Heater& heater, uint16_t reading) {
   if (thermistor::is_short(reading)) return HeaterFault::sensor_short;
   heater.temperature = thermistor::temperature(reading);
   if (heater.temperature >= static_cast<int16_t>(protocol::heat_cutoff_decidegrees)) return HeaterFault::too_hot;
-  const int16_t set_point = heater.set_point;
-  return heater.watch.judge(heater.temperature, set_point, heater.had_power,
-                            heater.set_point != 0 && heater.temperature >= set_point);
+  return heater.watch.judge(heater.temperature, heater.set_point, heater.had_power);
 }
 
 void latch(Heater& heater, HeaterFault fault) {

@@ -33,7 +33,7 @@ telehug_test(test_firmware KIND unit SUBJECT jacket
   DEPS passive_link jacket_simulator fmt::fmt)
 
 # Half an hour of the microcontroller's time.
-telehug_test(test_firmware_heaters KIND unit SUBJECT jacket
+telehug_test(test_firmware_heaters KIND unit SUBJECT jacket TIMEOUT 1800
   SOURCES
     unit/firmware/heater_faults_test.cpp
     unit/firmware/heating_test.cpp

@@ -84,6 +84,7 @@ Figures measure(const BoardWiring& board) {
   VirtualJacket jacket(board);
   load_heavily(jacket, board);
   EXPECT_EQ(jacket.chip.resets(), 0U);
+  EXPECT_EQ(jacket.chip.uart_overruns(), 0U) << board.name;
   figures.stack = ram_bytes - figures.statics - static_cast<int>(jacket.chip.untouched_ram());
   return figures;
 }

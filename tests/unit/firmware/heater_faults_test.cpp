@@ -63,6 +63,23 @@ TEST_F(FirmwareHeaterFaults, OfAShortedSensorTurnOffItsHeaterAndNotTheOther) {
   EXPECT_TRUE(heats(1));
 }
 
+TEST_F(FirmwareHeaterFaults, TakeThePowerAwayAtTheFirstReadingThatShowsThem) {
+  for (const unsigned wrong_mv : {open_mv, short_mv, mv_at(60)}) {
+    for (std::uint64_t phase_ms = 0; phase_ms < one_round_ms; phase_ms += 5) {
+      jacket.run_heated_s(0.2, {38, 0});
+      jacket.run_ms(phase_ms);
+      ASSERT_TRUE(jacket.is_heating(0));
+      jacket.chip.heaters().disturb(0, wrong_mv, many);
+      jacket.run_ms(one_round_ms + 1);
+      EXPECT_FALSE(jacket.is_heating(0)) << wrong_mv << " mV at " << phase_ms << " ms";
+      jacket.chip.reset();
+      jacket.chip.heaters().disturb(0, 0, 0);
+      jacket.run_ms(300);
+      jacket.hello();
+    }
+  }
+}
+
 TEST_F(FirmwareHeaterFaults, LastThroughAHelloAndEndWithAReset) {
   jacket.chip.heaters().disturb(0, open_mv, 5 * one_reading);
   jacket.run_heated_s(1, {38, 0});
@@ -165,12 +182,34 @@ TEST_F(FirmwareHeaterFaults, OfASensorThatWasNeverOnItsPadAreFoundBeforeThePadIs
   EXPECT_LE(other.warmest_pad[0], 38);
 }
 
+TEST_F(FirmwareHeaterFaults, OfASensorThatHasComeOffAreFoundThoughTheSetPointIsNotAlwaysTheSame) {
+  WarmJacket other;
+  other.chip.heaters().patch(0).parameters.air_celsius = 34;
+  other.break_now(0, HeaterBreak::detached);
+  other.run_ms(30'000);
+  other.hello();
+  for (int i = 0; i < 6; ++i) {
+    other.run_heated_s(10, {40, 0});
+    other.run_heated_s(0.4, {33, 0});
+  }
+  EXPECT_EQ(other.heater_telemetry(0).fault, HeaterFault::no_rise);
+  EXPECT_LE(other.warmest_pad[0], 39);
+}
+
 TEST_F(FirmwareHeaterFaults, AreNotMadeOfAHeaterThatIsSlowInTheCold) {
   jacket.chip.heaters().patch(0).parameters.air_celsius = 5;
   jacket.chip.heaters().patch(0).parameters.skin_celsius = 30;
   jacket.run_heated_s(120, {36, 0});
   EXPECT_EQ(fault(), HeaterFault::none);
   EXPECT_NEAR(jacket.pad(0), 36, 0.5);
+}
+
+TEST_F(FirmwareHeaterFaults, AreNotMadeOfAHeaterThatHasToWorkHardToHoldItsSetPoint) {
+  jacket.chip.heaters().patch(0).parameters.air_celsius = -10;
+  jacket.chip.heaters().patch(0).parameters.skin_celsius = 30;
+  jacket.run_heated_s(240, {35, 0});  // with power for 90 % of the time
+  EXPECT_EQ(fault(), HeaterFault::none);
+  EXPECT_NEAR(jacket.pad(0), 35, 0.5);
 }
 
 TEST_F(FirmwareHeaterFaults, AreNotMadeOfTouchesThatComeAndGo) {
