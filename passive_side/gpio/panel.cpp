@@ -143,15 +143,12 @@ void Panel::serve_hug_button(Timestamp now) {
 void Panel::serve_outputs(Timestamp now) {
   const JacketSituation is = situation(now);
   if (lines_.power) {
+    // Also if it is so already: this tells whether the line is still there.
     const bool wanted = supply_wanted(is);
-    const auto set = wanted == power_ ? Status(Done{}) : lines_.power->set(wanted);
-    if (!set) {
-      lose_power(set.error());
-    } else if (wanted != power_) {
-      power_ = wanted;
-      const std::lock_guard lock(mutex_);
-      status_.power = wanted;
-    }
+    const auto set = lines_.power->set(wanted);
+    if (!set) lose_power(set.error());
+    const std::lock_guard lock(mutex_);
+    status_.power = wanted && set.ok();
   }
   if (lines_.light) {
     const bool wanted = light_on(light_pattern(is), std::chrono::nanoseconds(to_ns(now)));

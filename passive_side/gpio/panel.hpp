@@ -81,7 +81,6 @@ class Panel {
   std::optional<EmergencyStop> emergency_stop_;
   bool held_ = false;  // by us
   bool power_lost_ = false;
-  std::optional<bool> power_;
   std::optional<bool> light_;
 
   std::atomic<std::uint8_t> told_{0};  // bits of JacketSituation

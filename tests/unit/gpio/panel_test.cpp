@@ -204,10 +204,9 @@ TEST_F(APanel, StopsWhenItsPowerLineIsLost) {
   open();
   pass(100ms);
   lose("power");
-  JacketSituation alone = ready;
-  alone.sender = false;
-  pass(1ms, alone);
+  pass(1ms);
   EXPECT_THAT(calls_, ElementsAre("hold: the power line is lost"));
+  EXPECT_FALSE(panel_->status().power);
   EXPECT_THAT(panel_->status().problems, Contains(HasSubstr("the line \"power\" is lost")));
 }
 
