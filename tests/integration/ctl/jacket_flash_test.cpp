@@ -6,14 +6,18 @@
 #include <sys/file.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <array>
 #include <cstdlib>
 #include <sstream>
+#include <thread>
 
 #include "doubles/temporary_folder.hpp"
 #include "integration/ctl/intel_hex.hpp"
 #include "integration/ctl/isp_programmer.hpp"
 #include "integration/ctl/simulated_board.hpp"
 #include "link/serial_link.hpp"
+#include "link/serial_port.hpp"
 #include "service/exit_code.hpp"
 
 namespace telehug {
@@ -101,13 +105,62 @@ TEST_F(JacketFlash, WritesTheFirmwareThroughOptibootAndTheJacketAnswers) {
 }
 
 TEST_F(JacketFlash, RefusesTheStockBootloaderOfTheDuemilanoveAndSaysWhyAndWhatToDo) {
-  SimulatedBoard board({.bootloader = bootloaders / "atmega/ATmegaBOOT_168_atmega328.hex", .worn_cell = {}});
+  SimulatedBoard board({.bootloader = bootloaders / "atmega/ATmegaBOOT_168_atmega328.hex"});
   const Outcome outcome = flash("--yes --port " + board.port());
   EXPECT_EQ(outcome.code, to_int(ExitCode::device));
   EXPECT_THAT(outcome.text,
               AllOf(HasSubstr("a bootloader 1.16 answers at 57600 baud"), HasSubstr("nothing was written"),
                     HasSubstr("leave the watchdog running"), HasSubstr("--programmer"), HasSubstr("burn optiboot")));
   EXPECT_THAT(board.flash(16384), Each(0xFF));
+}
+
+// Why the above is so: a program that tells its start at 57600 baud and then hangs until the watchdog resets the chip.
+class AHangingProgram : public JacketFlash {
+ protected:
+  [[nodiscard]] std::filesystem::path program() const {
+    const auto source = folder.write("hangs.c", R"(#include <avr/io.h>
+#include <avr/wdt.h>
+int main(void) {
+  MCUSR = 0;
+  wdt_disable();
+  UBRR0 = 16;
+  UCSR0B = _BV(TXEN0);
+  wdt_enable(WDTO_120MS);
+  UDR0 = 'S';
+  for (;;) {}
+})");
+    const std::string elf = folder / "hangs.elf";
+    const std::string hex = folder / "hangs.hex";
+    const std::string compile = "avr-gcc -Os -mmcu=atmega328p " + source.string() + " -o " + elf;
+    if (std::system((compile + " && avr-objcopy -O ihex " + elf + " " + hex).c_str()) != 0)
+      throw std::runtime_error("the program can't be compiled: run deploy/setup");
+    return hex;
+  }
+
+  // How often it starts in four seconds of the chip, from when the port is opened.
+  static int starts(SimulatedBoard& board) {
+    auto port = SerialPort::open(board.port(), 57600);
+    if (!port) throw std::runtime_error(port.error().message);
+    int count = 0;
+    const std::uint64_t begin_ms = board.simulated_ms();
+    while (board.simulated_ms() < begin_ms + 4000) {
+      std::array<std::uint8_t, 64> bytes{};
+      const std::size_t size = port->read(bytes).value_or(0);
+      count += static_cast<int>(std::count(bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(size), 'S'));
+      std::this_thread::sleep_for(5ms);
+    }
+    return count;
+  }
+};
+
+TEST_F(AHangingProgram, IsStartedAgainByOptiboot) {
+  SimulatedBoard board({.bootloader = compiled_optiboot("atmega328p", "0x7E00"), .program = program()});
+  EXPECT_GT(starts(board), 10);
+}
+
+TEST_F(AHangingProgram, NeverStartsAgainWithTheStockBootloader) {
+  SimulatedBoard board({.bootloader = bootloaders / "atmega/ATmegaBOOT_168_atmega328.hex", .program = program()});
+  EXPECT_EQ(starts(board), 1);
 }
 
 TEST_F(JacketFlash, WritesToThePortOfTheConfigurationIfNoneIsNamed) {
@@ -153,7 +206,7 @@ TEST_F(JacketFlash, SaysWhoHoldsThePortAndHowToEndThat) {
 }
 
 TEST_F(JacketFlash, TellsThatTheChipIsAnotherOne) {
-  SimulatedBoard board({.chip = "atmega168", .bootloader = compiled_optiboot("atmega168", "0x3E00"), .worn_cell = {}});
+  SimulatedBoard board({.chip = "atmega168", .bootloader = compiled_optiboot("atmega168", "0x3E00")});
   const Outcome outcome = flash("--yes --port " + board.port());
   EXPECT_EQ(outcome.code, to_int(ExitCode::device));
   EXPECT_THAT(outcome.text, AllOf(HasSubstr("expected signature for ATmega328P"), HasSubstr("and no other chip")));

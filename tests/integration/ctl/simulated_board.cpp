@@ -50,7 +50,7 @@ struct SimulatedBoard::Chip {
     avr_init(avr);
     avr->frequency = clock_hz;
     avr->sleep = do_not_sleep;
-    load_bootloader();
+    load_flash();
     std::uint32_t flags = 0;
     avr_ioctl(avr, AVR_IOCTL_UART_SET_FLAGS('0'), &flags);
     for (avr_io_t* io = avr->io_port; io != nullptr; io = io->next)
@@ -66,7 +66,10 @@ struct SimulatedBoard::Chip {
   Chip(const Chip&) = delete;
   Chip& operator=(const Chip&) = delete;
 
-  void load_bootloader() {
+  void load_flash() {
+    if (!options.program.empty())
+      for (const auto& [address, byte] : read_intel_hex(options.program))
+        avr->flash[address] = byte;
     const auto bytes = read_intel_hex(options.bootloader);
     if (bytes.rbegin()->first > avr->flashend) {
       throw std::runtime_error(options.bootloader.string() + " is too big for an " + options.chip);
@@ -161,6 +164,11 @@ std::vector<std::uint8_t> SimulatedBoard::flash(std::size_t size) {
   return {chip_->avr->flash, chip_->avr->flash + size};
 }
 
+std::uint64_t SimulatedBoard::simulated_ms() {
+  const std::lock_guard lock(mutex_);
+  return chip_->avr->cycle / (clock_hz / 1000);
+}
+
 void SimulatedBoard::run() {
   const SteadyClock clock;
   Timestamp epoch = clock.now();
@@ -170,8 +178,7 @@ void SimulatedBoard::run() {
     {
       const std::lock_guard lock(mutex_);
       chip_->look_at_the_port();
-      // A reset begins the count of cycles anew in some versions of simavr.
-      if (chip_->avr->cycle < epoch_cycle || clock.now() - simulated() > lag_max) {
+      if (clock.now() - simulated() > lag_max) {
         epoch = clock.now();
         epoch_cycle = chip_->avr->cycle;
       }

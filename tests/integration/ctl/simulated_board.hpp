@@ -17,10 +17,11 @@
 namespace telehug {
 
 struct BoardOptions {
-  std::string chip = "atmega328p";   // as simavr names it
-  std::filesystem::path bootloader;  // Intel hex
+  std::string chip = "atmega328p";     // as simavr names it
+  std::filesystem::path bootloader;    // Intel hex
+  std::filesystem::path program = {};  // Intel hex, in the flash from the start; empty: none
   // A cell of the flash that always reads 0xFF.
-  std::optional<std::uint32_t> worn_cell;
+  std::optional<std::uint32_t> worn_cell = {};
 };
 
 // A pseudo terminal has no DTR, which resets a real board when its port is opened; here the setting of a speed does, as
@@ -34,6 +35,8 @@ class SimulatedBoard {
   SimulatedBoard& operator=(const SimulatedBoard&) = delete;
 
   [[nodiscard]] std::string port() const;
+  // What the chip's clock has counted, in ms; stands in for the time of a loaded PC.
+  [[nodiscard]] std::uint64_t simulated_ms();
   // `size` bytes from address 0.
   [[nodiscard]] std::vector<std::uint8_t> flash(std::size_t size);
 
