@@ -74,20 +74,25 @@ void JacketSession::receive(std::span<const std::uint8_t> bytes, Timestamp now) 
   status_.malformed_frames = decoder_.malformed() + unexpected_frames_;
 }
 
+void JacketSession::note_answer(Timestamp now) {
+  last_heard_ = now;
+  unanswered_ = 0;
+}
+
 void JacketSession::on_frame(const Frame& frame, Timestamp now) {
   if (phase_ == Phase::closed) return;
   ++status_.frames_received;
   if (const auto caps = parse_caps(frame)) {
-    last_heard_ = now;
+    note_answer(now);
     if (phase_ == Phase::greeting && caps->nonce == nonce_) on_caps(*caps, now);
   } else if (frame.type == FrameType::ack && frame.payload.size() == 1) {
-    last_heard_ = now;
+    note_answer(now);
     if (stop_ == Stop::unacknowledged && frame.sequence == stop_sequence_) stop_ = Stop::none;
   } else if (frame.type == FrameType::nack && frame.payload.size() == 2) {
-    last_heard_ = now;
+    note_answer(now);
     on_nack(frame, now);
   } else if (auto telemetry = read_telemetry(frame, temperatures_, now)) {
-    last_heard_ = now;
+    note_answer(now);
     status_.telemetry = *telemetry;
   } else {
     ++unexpected_frames_;
@@ -193,6 +198,7 @@ EncodedFrame JacketSession::next_frame(Timestamp now, bool has_backlog) {
 
 EncodedFrame JacketSession::make_frame(FrameType type, const FramePayload& payload, Timestamp now) {
   ++status_.frames_sent;
+  ++unanswered_;
   last_sent_ = now;
   return encode({type, ++sequence_, payload});
 }
@@ -245,6 +251,7 @@ bool JacketSession::heats(Timestamp now) const {
 
 // What turns something down or off goes at once; what only drives waits for its turn.
 EncodedFrame JacketSession::make_drive(Timestamp now) {
+  if (unanswered_ >= unanswered_max) return {};
   const bool lowers_drive = wants_less_drive(now) && pace_.may_lower(now);
   const bool lowers_heat = wants_less_heat(now) && pace_.may_lower(now);
   const bool turn = pace_.may_drive(now);

@@ -27,6 +27,9 @@ class JacketSession final : public Conversation {
   static constexpr Duration silence_max = 1s;
   static constexpr Duration status_interval = 500ms;
   static constexpr Duration stop_repeat = 50ms;  // until the jacket acknowledges
+  // So many frames may wait for any answer; then states wait, too. Bluetooth takes more than the jacket has read, and
+  // would hand it over late.
+  static constexpr int unanswered_max = 6;
 
   // The first frame turns everything off.
   void connected(Timestamp now) override;
@@ -58,6 +61,7 @@ class JacketSession final : public Conversation {
 
   void greet(Timestamp now);
   void on_frame(const Frame& frame, Timestamp now);
+  void note_answer(Timestamp now);
   void on_caps(const protocol::Caps& caps, Timestamp now);
   void on_nack(const Frame& frame, Timestamp now);
   [[nodiscard]] EncodedFrame make_frame(protocol::FrameType type, const FramePayload& payload, Timestamp now);
@@ -85,6 +89,7 @@ class JacketSession final : public Conversation {
   Timestamp greeting_since_;
   Timestamp next_hello_;
   Timestamp last_heard_;
+  int unanswered_ = 0;  // frames since
   Timestamp last_sent_;
 
   Stop stop_ = Stop::none;

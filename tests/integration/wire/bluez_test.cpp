@@ -19,7 +19,6 @@ namespace {
 
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
-using ::testing::Not;
 
 // Sockets that must not be needed, or that tell on which channel they were.
 class OwnSockets final : public RfcommSockets {

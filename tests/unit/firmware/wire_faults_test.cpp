@@ -284,7 +284,7 @@ TEST_F(WireFaults, OfASilentWireTurnEverythingOff) {
     carry();
   ASSERT_TRUE(was_high(5));
   const Timestamp cut = now();
-  to_jacket = [](Bytes) { return Bytes(); };
+  to_jacket = [](const Bytes&) { return Bytes(); };
   while (was_high(5) && now() < cut + 1s) {
     session.send({{5, 255, 250ms}}, now());
     carry();

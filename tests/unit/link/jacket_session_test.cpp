@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+
 #include "unit/link/jacket_session_fixture.hpp"
 
 namespace telehug {
@@ -173,6 +175,28 @@ TEST_F(JacketSessionTest, SendsOnlyStopsWhileTheWireHasABacklog) {
   session.stop_all();
   EXPECT_THAT(types_said(true), ElementsAre(FrameType::stop_all));
   EXPECT_THAT(said(false), IsEmpty()) << "the stop has taken the waiting state's place";
+}
+
+TEST_F(JacketSessionTest, HoldsStatesBackWhileTheJacketAnswersNothing) {
+  arm();
+  std::vector<Frame> frames;
+  for (int ms = 0; ms < 800; ms += 10) {
+    send({{3, static_cast<std::uint8_t>(100 + ms / 10), 250ms}});
+    for (const Frame& frame : said())
+      frames.push_back(frame);
+    clock.advance(10ms);
+  }
+  const auto sets = std::ranges::count(frames, FrameType::set, &Frame::type);
+  EXPECT_EQ(sets, 5) << "behind the question for telemetry";
+  EXPECT_THAT(frames.back().type, AnyOf(FrameType::keep, FrameType::status)) << "the jacket is kept alive, though";
+  session.stop_all();
+  EXPECT_THAT(types_said(), ElementsAre(FrameType::stop_all)) << "stops always leave";
+  send({{3, 250, 250ms}});
+  EXPECT_THAT(said(), IsEmpty());
+  acknowledge(frames.back());
+  const auto newest = said();
+  ASSERT_EQ(newest.size(), 1U);
+  EXPECT_THAT(newest[0].payload, ElementsAre(3, 250, 25));
 }
 
 TEST_F(JacketSessionTest, RepeatsAStopUntilItIsAcknowledged) {

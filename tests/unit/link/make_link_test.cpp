@@ -21,7 +21,8 @@ std::filesystem::path temporary_file() {
 }
 
 TEST(MakeLink, SaysWhatItTakesWhenASpecNamesNoJacket) {
-  for (const char* spec : {"", "serial", "serial:", "record:", "bluetooth", "simulated:x", "rfcomm:", "rfcomm:00:11:22:33:44", "rfcomm:00:11:22:33:44:55/0"}) {
+  for (const char* spec : {"", "serial", "serial:", "record:", "bluetooth", "simulated:x",
+                           "rfcomm:", "rfcomm:00:11:22:33:44", "rfcomm:00:11:22:33:44:55/0"}) {
     const auto link = make_link(spec);
     ASSERT_FALSE(link) << spec;
     EXPECT_THAT(link.error().message, HasSubstr("serial:PATH, rfcomm:ADDRESS, simulated or record:FILE")) << spec;
