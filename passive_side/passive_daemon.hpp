@@ -15,11 +15,13 @@
 #include "common/version.hpp"
 #include "config/config.hpp"
 #include "connected_sender.hpp"
+#include "consent_switch.hpp"
 #include "daemon/connections.hpp"
 #include "daemon/stop_switch.hpp"
 #include "hug_back.hpp"
 #include "jacket/jacket_profile.hpp"
 #include "jacket_trial.hpp"
+#include "limit_notes.hpp"
 #include "passive_pipeline.hpp"
 #include "safety/safety_stage.hpp"
 #include "service/control_server.hpp"
@@ -41,6 +43,7 @@ struct TrialOutcome {
 struct DriveThreadState {
   LinkStatus link;
   SafetyCounters safety;
+  HeaterReports heaters;
   bool stopped = false;
   std::string stop_reason;
   std::vector<std::uint8_t> running;  // ids of actuators
@@ -87,6 +90,7 @@ class PassiveDaemon {
   void hear(ConnectedSender& sender, Timestamp now);
   void process_newest_event(ConnectedSender& sender);
   void follow_stops(Timestamp now);
+  void follow_consent();
   void follow_trial(Timestamp now);
   void tell_running(Timestamp now);
   void tell_state(Timestamp now);
@@ -94,12 +98,17 @@ class PassiveDaemon {
   // Housekeeping
   [[nodiscard]] bool follow_pairs();
   void tell_watchers();
+  void tell_of_limits();
   void keep_connections();
   void answer_commands();
   nlohmann::json order_hug(const nlohmann::json& request);
   nlohmann::json order_trial(const nlohmann::json& request);
   nlohmann::json describe_jacket(const nlohmann::json& request) const;
   nlohmann::json status() const;
+  [[nodiscard]] std::string actuator_name(std::uint8_t id) const;
+  void add_safety_problems(nlohmann::json& list, const DriveThreadState& state) const;
+  void add_safety_status(nlohmann::json& answer, const DriveThreadState& state) const;
+  static void add_safety_counters(nlohmann::json& counters, const SafetyCounters& safety);
   [[nodiscard]] std::vector<ConnectionStatus> connections() const;
   nlohmann::json problems(const DriveThreadState& state, const std::vector<ConnectionStatus>& connections) const;
   [[nodiscard]] DriveThreadState state() const;
@@ -119,6 +128,9 @@ class PassiveDaemon {
   Timestamp told_state_;
   DriveThreadState own_state_;
   JacketTrial trial_;
+  Consent wanted_;
+  WallTime wall_;                           // of the last look at the clock
+  int local_minute_now_ = 0;                // then
   std::array<bool, max_senders> driven_{};  // the numbers of those that are connected
   boost::container::static_vector<std::uint8_t, max_actuators> told_running_;
   Counter& events_received_;
@@ -134,6 +146,7 @@ class PassiveDaemon {
   };
   LatestSlot<OrderedTrial> trial_request_;
   StopSwitch stop_;
+  ConsentSwitch consent_;
   std::atomic<bool> ending_ = false;
   mutable std::mutex state_mutex_;
   DriveThreadState state_;
@@ -142,6 +155,8 @@ class PassiveDaemon {
 
   // Housekeeping
   SayOnChange say_jacket_;
+  SayOnChange say_consent_;
+  LimitNotes limit_notes_;
 
   std::uint64_t trials_ordered_ = 0;  // the control thread's
   HugBack hug_back_;                  // likewise

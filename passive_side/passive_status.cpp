@@ -44,6 +44,7 @@ void PassiveDaemon::answer_commands() {
   control_->on("jacket", [this](const Json& request) { return describe_jacket(request); });
   control_->on("jacket_trial", [this](const Json& request) { return order_trial(request); });
   stop_.serve(*control_);
+  consent_.serve(*control_, [this] { bell_.put(true); });
 }
 
 Json PassiveDaemon::problems(const DriveThreadState& now, const std::vector<ConnectionStatus>& connections) const {
@@ -56,6 +57,7 @@ Json PassiveDaemon::problems(const DriveThreadState& now, const std::vector<Conn
   if (stop_.stopped()) list.push_back(problem_json("stopped here: " + stop_.reason(), "run `telehug resume`"));
   for (const ConnectionStatus& connection : connections)
     if (connection.stopped_by_peer) list.push_back(peer_stop_problem_json(connection));
+  add_safety_problems(list, now);
   for (const std::string& pair : left_out_)
     list.push_back(problem_json(pair, "the other pairs work; start telehug-passive again when it is mended"));
   add_absences(list, Side::passive, connections);
@@ -66,25 +68,10 @@ Json PassiveDaemon::status() const {
   const DriveThreadState now = state();
   const auto connected = connections();
   const bool armed = now.link.state == LinkState::armed;
+  const bool refused = !refusal_text(consent_.consent(), wall_time()).empty();
   Json counters = metrics_.counters_json();
   count_connections(counters, connected);
-  const SafetyCounters& safety = now.safety;
-  counters["safety_accepted"] = safety.drives_accepted;
-  counters["safety_refused_unknown_actuator"] = safety.refused_unknown_actuator;
-  counters["safety_refused_not_finite"] = safety.refused_not_finite;
-  counters["safety_refused_by_limit"] = safety.refused_by_limit;
-  counters["safety_refused_stopped"] = safety.refused_stopped;
-  counters["safety_refused_no_sender"] = safety.refused_no_sender;
-  counters["safety_refused_no_jacket"] = safety.refused_no_jacket;
-  counters["safety_clamped_strength"] = safety.clamped_strength;
-  counters["safety_clamped_end"] = safety.clamped_end;
-  counters["off_ended"] = safety.off_ended;
-  counters["off_expired"] = safety.off_expired;
-  counters["off_stop"] = safety.off_stop;
-  counters["off_asked"] = safety.off_asked;
-  counters["off_heartbeat_lost"] = safety.off_heartbeat_lost;
-  counters["off_link_lost"] = safety.off_link_lost;
-  counters["off_clock_jumped"] = safety.off_clock_jumped;
+  add_safety_counters(counters, now.safety);
   counters["jacket_reconnects"] = now.link.reconnects;
   counters["jacket_frames_sent"] = now.link.frames_sent;
   counters["jacket_frames_received"] = now.link.frames_received;
@@ -97,6 +84,7 @@ Json PassiveDaemon::status() const {
                  {"uptime_s", std::chrono::duration<double>(clock_.now() - started_).count()},
                  {"state", now.stopped             ? "stopped"
                            : !armed                ? "fault"
+                           : refused               ? "paused"
                            : !any_alive(connected) ? "waiting"
                                                    : "ok"},
                  {"problems", problems(now, connected)},
@@ -109,6 +97,7 @@ Json PassiveDaemon::status() const {
                    {"running", id_list(now.running)}}},
                  {"counters", counters},
                  {"latency_ms", metrics_.latencies_json()}};
+  add_safety_status(answer, now);
   add_connections(answer, connected);
   if (now.last_felt) {
     answer["last_touch"] = felt_json(*now.last_felt);

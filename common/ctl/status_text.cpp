@@ -112,6 +112,18 @@ std::string thing_text(std::string_view label, const Json& thing) {
   return line(label, joined(text, ", ", rest_of(thing, {"name", "gesture", "open", "why", "places_px"})));
 }
 
+// One line for each of several, such as heaters.
+std::string things_text(std::string_view label, const Json& things) {
+  const auto is_object = [](const Json& thing) { return thing.is_object(); };
+  if (!things.is_array() || things.empty() || !std::all_of(things.begin(), things.end(), is_object)) {
+    return thing_text(label, things);
+  }
+  std::string text;
+  for (const Json& thing : things)
+    text += thing_text(label, thing);
+  return text;
+}
+
 std::string counters_text(const Json& counters) {
   if (!counters.is_object() || counters.empty()) return "";
   std::string text = "  counters\n";
@@ -140,8 +152,8 @@ std::string latencies_text(const Json& stages) {
 }  // namespace
 
 std::string status_text(const Json& status) {
-  static constexpr std::array<const char*, 7> things{"camera", "screen",     "face",    "sending",
-                                                     "jacket", "last_touch", "last_hug"};
+  static constexpr std::array<const char*, 8> things{"camera",  "screen", "face",       "sending",
+                                                     "consent", "jacket", "last_touch", "last_hug"};
   static constexpr std::array<const char*, 9> placed{"side", "version", "uptime_s", "state",     "problems",
                                                      "peer", "peers",   "counters", "latency_ms"};
   std::string text = heading(status);
@@ -160,7 +172,7 @@ std::string status_text(const Json& status) {
           std::any_of(placed.begin(), placed.end(), is)) {
         continue;
       }
-      text += thing_text(plain_text(name), value);
+      text += things_text(plain_text(name), value);
     }
   }
   if (const Json* counters = part(status, "counters")) text += counters_text(*counters);

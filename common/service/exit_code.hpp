@@ -17,7 +17,7 @@ enum class ExitCode : int {
   bad_answer = 8,        // the daemon did not answer in time, or not in its language
   refused = 9,           // the daemon understood and refused
   already_running = 10,  // another daemon serves the same socket
-  stopped = 11,          // stop is latched (only where a command asks for it)
+  stopped = 11,          // stop is latched, or the wearer has paused (only where a command asks for it)
   fault = 12,            // a side reports that it can't work (only where a command asks for it)
   network = 13,          // DDS can't be set up on this PC
   mismatch = 14,         // a demo or comparison ran, and what came out is not what should have
