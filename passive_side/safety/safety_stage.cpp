@@ -11,7 +11,7 @@ constexpr Duration most_longest_drive = 2s;
 
 constexpr Timestamp never_heard = Timestamp::min();
 
-const SafetyLimits& checked(const SafetyLimits& limits) {
+SafetyLimits checked(SafetyLimits limits) {
   // Written so that NaN fails.
   if (!(limits.max_strength >= 0 && limits.max_strength <= 1)) {
     throw std::invalid_argument("safety: max_strength must be 0..1");

@@ -34,6 +34,7 @@ TEST_F(WearersConsent, PausesAtOnceAndIsKeptOverARestartUntilItIsEnded) {
   ASSERT_TRUE(pair.start_all()) << pair.logs();
   const auto silence_ms = pair.ms_to_silence([this] { ASSERT_EQ(pair.telehug("pause", Side::passive).code, 0); });
   ASSERT_TRUE(silence_ms) << pair.logs();
+  RecordProperty("silence_ms", std::to_string(*silence_ms));
   EXPECT_TRUE(pair.complains(Side::passive, "paused until further notice")) << pair.logs();
   EXPECT_EQ(pair.status(Side::passive).at("state"), "paused");
   EXPECT_TRUE(eventually([this] { return pair.complains(Side::active, "is not ready: paused until further notice"); }))
@@ -80,8 +81,8 @@ TEST_F(WearersConsent, FeelsNothingInQuietHours) {
 
 TEST_F(WearersConsent, FeelsNothingInAMutedBoxUntilItIsUnmuted) {
   ASSERT_TRUE(pair.start_all()) << pair.logs();
-  const Json touch = pair.status(Side::passive).at("last_touch");
-  const auto box = std::to_string(touch.at("box").get<int>());
+  ASSERT_TRUE(eventually([this] { return pair.status(Side::passive).contains("last_touch"); })) << pair.logs();
+  const auto box = std::to_string(pair.status(Side::passive).at("last_touch").at("box").get<int>());
   ASSERT_EQ(pair.telehug("mute", Side::passive, {box}).code, 0);
   EXPECT_TRUE(eventually([this] { return !pair.felt(); })) << pair.logs();
   EXPECT_TRUE(eventually([this] { return pair.status(Side::passive).at("last_touch").at("outcome") == "muted"; }))
