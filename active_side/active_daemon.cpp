@@ -24,7 +24,7 @@ constexpr std::uint32_t versions_a_rig = 1U << 20U;
 }  // namespace
 
 ActiveDaemon::ActiveDaemon(const ActiveConfig& config, Memberships memberships, std::unique_ptr<FrameSource> camera,
-                           const Clock& clock)
+                           std::unique_ptr<FeltFeedback> feedback, const Clock& clock)
     : config_(config),
       left_out_(std::move(memberships.left_out)),
       clock_(clock),
@@ -46,6 +46,7 @@ ActiveDaemon::ActiveDaemon(const ActiveConfig& config, Memberships memberships, 
       local_touch_(local_outputs(config.local_touch), clock),
       sending_switch_(config.sending.at_start, config.sending.only_in_front),
       calibration_path_(rig_file(config.rig)),
+      feedback_(std::move(feedback)),
       desktop_notifier_(clock),
       wearers_(PairsWatch(config.peer, Side::active, clock),
                [this](Membership membership, const Wearers::List&) {

@@ -18,6 +18,7 @@
 #include "connected_wearer.hpp"
 #include "daemon/connections.hpp"
 #include "daemon/stop_switch.hpp"
+#include "feedback/felt_feedback.hpp"
 #include "local_touch/local_touch.hpp"
 #include "notify/desktop_notifier.hpp"
 #include "overlay/x11_hotkey.hpp"
@@ -73,8 +74,9 @@ struct SeenHug {
 class ActiveDaemon {
  public:
   // Throws AlreadyRunning, std::runtime_error or std::invalid_argument with a sentence for a person.
+  // `feedback` may be null.
   ActiveDaemon(const ActiveConfig& config, Memberships memberships, std::unique_ptr<FrameSource> camera,
-               const Clock& clock);
+               std::unique_ptr<FeltFeedback> feedback, const Clock& clock);
   ~ActiveDaemon();
   ActiveDaemon(const ActiveDaemon&) = delete;
   ActiveDaemon& operator=(const ActiveDaemon&) = delete;
@@ -189,6 +191,8 @@ class ActiveDaemon {
   SayOnChange say_face_;
   SayOnChange say_rig_;
   SayOnChange say_local_touch_;
+  const std::unique_ptr<FeltFeedback> feedback_;
+  SayOnChange say_feedback_;
   DesktopNotifier desktop_notifier_;
   Timestamp glows_until_;  // the overlay, after a hug
   SayOnChange say_desktop_;

@@ -173,6 +173,11 @@ Json ActiveDaemon::problems(const TouchThreadState& state, const FaceState& face
                                 "keep your hands away from the screen for a second"));
   }
   if (const Json picture = picture_problem(state.picture); !picture.is_null()) list.push_back(picture);
+  if (feedback_) {
+    if (const std::string problem = feedback_->problem(); !problem.empty())
+      list.push_back(problem_json("the actuator at the toucher's finger: " + problem,
+                                  "check its cable, or turn it off in [feedback]; it is tried again by itself"));
+  }
   for (const LocalTouchState& output : local_touch_.states()) {
     if (output.problem.empty()) continue;
     list.push_back(problem_json(output.problem, "or turn it off in [local_touch]; it is tried again by itself"));
@@ -317,10 +322,19 @@ void ActiveDaemon::tell_watchers() {
     Felt felt;
     while (wearer->felt.pop(felt)) {
       touched_box_.felt(felt);
+      if (feedback_) feedback_->felt(felt);
       Json event = felt_json(felt);
       if (wearer->membership().pair) event["wearer"] = wearer->name();
       control_->broadcast(std::move(event));
     }
+  }
+
+  if (feedback_) {
+    feedback_->set_stopped(stop_.stopped());
+    const std::string problem = feedback_->problem();
+    say_feedback_.say(problem.empty() ? spdlog::level::info : spdlog::level::warn,
+                      problem.empty() ? "the actuator at the toucher's finger is ready"
+                                      : "the actuator at the toucher's finger: " + problem);
   }
 
   TouchThreadState state;

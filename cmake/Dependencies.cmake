@@ -14,6 +14,7 @@ find_package(Boost 1.74 REQUIRED)
 find_package(Eigen3 3.4 REQUIRED NO_MODULE)
 find_package(PkgConfig REQUIRED)
 pkg_check_modules(libsystemd REQUIRED IMPORTED_TARGET libsystemd)
+pkg_check_modules(gpiod REQUIRED IMPORTED_TARGET libgpiod)  # 1.6 or 2
 pkg_check_modules(libevdev REQUIRED IMPORTED_TARGET libevdev)
 pkg_check_modules(liblo REQUIRED IMPORTED_TARGET liblo)
 pkg_check_modules(libjpeg REQUIRED IMPORTED_TARGET libjpeg)

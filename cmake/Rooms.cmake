@@ -16,13 +16,13 @@ if(CCACHE)
 endif()
 
 function(telehug_settings target)
-  # The warnings are g++'s; the fuzzers are built by clang, which lacks some of them.
-  if(NOT TELEHUG_FUZZ)
+  # The warnings are g++'s; fuzzers and the address sanitizer's build are clang's, which lacks some of them.
+  if(CMAKE_CXX_COMPILER_ID STREQUAL GNU)
     target_compile_options(${target} PRIVATE ${TELEHUG_WARNINGS})
-  endif()
-  if(TELEHUG_SANITIZER)
-    # GCC's manual: instrumented code makes these warnings err; the other builds keep them.
-    target_compile_options(${target} PRIVATE -Wno-maybe-uninitialized -Wno-stringop-overflow)
+    if(TELEHUG_SANITIZER)
+      # GCC's manual: instrumented code makes these warnings err; the other builds keep them.
+      target_compile_options(${target} PRIVATE -Wno-maybe-uninitialized -Wno-stringop-overflow)
+    endif()
   endif()
   if(NOT ARGN STREQUAL "USES_FASTDDS")
     target_compile_options(${target} PRIVATE -include ${PROJECT_SOURCE_DIR}/cmake/no_fastdds.hpp)

@@ -24,7 +24,7 @@ Examples:
   telehug-passive run --set jacket.link=simulated
 
 Exit codes: 0 ok, 1 fault of telehug, 2 wrong command line, 3 faults in the configuration or the jacket's profile,
-  4 the jacket can't be used, 10 another telehug-passive runs, 13 DDS can't be set up,
+  4 the jacket, its stop button or its power line can't be used, 10 another telehug-passive runs, 13 DDS can't be set up,
   15 the pair was revoked or has expired.)";
 
 struct Options {
@@ -53,6 +53,7 @@ ExitCode run(const Options& options) {
   if (!profile) return fail(ExitCode::config, profile.error().message);
   LinkOptions link_options;
   link_options.baud = static_cast<unsigned>(config->jacket.baud != 0 ? config->jacket.baud : profile->baud);
+  if (profile->protocol == JacketProtocol::legacy) link_options.protocol = LinkProtocol::legacy;
   auto link = make_link(config->jacket.link, link_options);
   if (!link) return fail(ExitCode::device, link.error().message);
   const SteadyClock clock;
@@ -61,6 +62,8 @@ ExitCode run(const Options& options) {
     return daemon.run(signals);
   } catch (const AlreadyRunning& running) {
     return fail(ExitCode::already_running, running.what());
+  } catch (const LineMissing& missing) {
+    return fail(ExitCode::device, missing.what());
   } catch (const DdsError& error) {
     return fail(ExitCode::network, error.what());
   }

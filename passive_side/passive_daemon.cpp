@@ -2,8 +2,11 @@
 #include "passive_daemon.hpp"
 
 #include <algorithm>
+#include <ctime>
 #include <stdexcept>
 
+#include "config/places.hpp"
+#include "config/quiet_hours_text.hpp"
 #include "daemon/daemon_settings.hpp"
 #include "peer/session_id.hpp"
 
@@ -18,6 +21,7 @@ constexpr Duration oldest_heartbeat = 50ms;  // between its arrival and its bein
 SafetyLimits safety_limits(const SafetyConfig& config) {
   SafetyLimits limits;
   limits.max_strength = config.max_strength;
+  limits.max_celsius = config.max_celsius;
   limits.heartbeat_timeout = std::chrono::milliseconds(config.heartbeat_timeout_ms);
   return limits;
 }
@@ -38,6 +42,7 @@ PassiveDaemon::PassiveDaemon(const PassiveConfig& config, Memberships membership
       events_replaced_(metrics_.counter("events_replaced_by_newer")),
       events_unvouched_(metrics_.counter("events_without_heartbeat")),
       total_latency_(metrics_.latency("event_to_link")),
+      consent_(consent_file(config.consent), parse_quiet_hours(config.consent.quiet_hours).value(), profile_),
       hug_back_(session_),
       hugs_sent_(metrics_.counter("hugs_sent")),
       hugs_too_soon_(metrics_.counter("hugs_too_soon")),
@@ -46,6 +51,8 @@ PassiveDaemon::PassiveDaemon(const PassiveConfig& config, Memberships membership
                  return connect(std::move(membership), others);
                }),
       control_(std::make_unique<ControlServer>(control_options(config.control, Side::passive))) {
+  wanted_ = consent_.consent();
+  panel_ = make_panel();  // not before it is known that no other daemon has its lines
   answer_commands();
   senders_.open(std::move(memberships.members));
 }
@@ -74,6 +81,7 @@ std::shared_ptr<ConnectedSender> PassiveDaemon::connect(Membership membership, c
 
 ExitCode PassiveDaemon::run(Signals& signals) {
   control_->start();
+  panel_->start();  // before anything can be driven
   drive_thread_ = std::thread([this] { drive_loop(); });
   notifier_.ready();
   spdlog::info("telehug-passive {} runs; jacket: {} on {}", version, profile_.name, config_.jacket.link);
@@ -81,13 +89,19 @@ ExitCode PassiveDaemon::run(Signals& signals) {
     spdlog::info("{}", describe(sender->membership()));
   for (const std::string& pair : left_out_)
     spdlog::error("{}", pair);
+  if (!config_.consent.quiet_hours.empty()) spdlog::info("quiet hours: {}", config_.consent.quiet_hours);
   for (const std::string& note : profile_.notes)
     spdlog::info("{}", note);
+  for (const std::string& problem : panel_->status().problems)
+    spdlog::warn("{}", problem);
   bool paired = true;
   while (signals.wait(housekeeping_round) != SignalRequest::stop) {
     paired = follow_pairs();
     if (!paired) break;
+    tzset();  // follows a time zone that is changed meanwhile; looks at no more than the file's date if it is not
     tell_watchers();
+    tell_of_limits();
+    answer_hug_button();
     keep_connections();
   }
   notifier_.stopping();
@@ -110,6 +124,7 @@ bool PassiveDaemon::follow_pairs() {
 void PassiveDaemon::end_thread() {
   ending_ = true;
   if (drive_thread_.joinable()) drive_thread_.join();
+  panel_->stop();
   // The queue's own destructor (Boost 1.74) does not destroy what it holds.
   felt_.consume_all([](const GivenAnswer&) {});
   senders_.close();
@@ -121,6 +136,7 @@ void PassiveDaemon::drive_loop() {
   while (!ending_) {
     bell_.wait_and_take(clock_.now() + drive_round);
     adopt_senders();
+    follow_consent();
     // The safety stage takes a time that goes back for a fault: each call gets the present one.
     for (const auto& sender : senders_.adopted())
       hear(*sender, clock_.now());
@@ -134,6 +150,7 @@ void PassiveDaemon::drive_loop() {
     safety_.tick(now);
     tell_running(now);
     tell_state(now);
+    tell_panel(now);
     notifier_.alive(now);
   }
   safety_.stop("telehug-passive ends", clock_.now());
@@ -187,6 +204,20 @@ void PassiveDaemon::follow_stops(Timestamp now) {
   safety_.stop(own ? stop_.reason() : (*stopper)->name() + " has stopped everything", now);
 }
 
+// Local time is asked for once a second: libc looks it up under a lock, which others hold for a moment only.
+void PassiveDaemon::follow_consent() {
+  if (const auto wanted = consent_.take()) wanted_ = *wanted;
+  if (const WallTime wall = wall_time(); wall != wall_) {
+    wall_ = wall;
+    local_minute_now_ = local_minute(wall);
+  }
+  const Permission permission = permission_at(wanted_, wall_, local_minute_now_);
+  if (permission == safety_.permission()) return;
+  safety_.permit(permission, clock_.now());
+  for (const auto& sender : senders_.adopted())
+    sender->pipeline.forget_touches(clock_.now());
+}
+
 void PassiveDaemon::tell_running(Timestamp now) {
   const auto running = safety_.running();
   if (running == told_running_) return;
@@ -201,6 +232,7 @@ void PassiveDaemon::tell_state(Timestamp now) {
   told_state_ = now;
   own_state_.link = safety_.link_status();
   own_state_.safety = safety_.counters();
+  own_state_.heaters = safety_.heaters();
   for (const auto& sender : senders_.adopted())
     sender->connection.tell_state(now);
   own_state_.stopped = safety_.stopped();
@@ -230,11 +262,13 @@ void PassiveDaemon::keep_connections() {
   own.side = Side::passive;
   own.version = version;
   own.stopped = now.stopped;
-  own.ready = now.link.state == LinkState::armed && !now.stopped;
-  own.reason = stop_.stopped() ? stop_.reason()
-               : now.stopped   ? now.stop_reason
-               : own.ready     ? ""
-                               : "no jacket answers: " + now.link.problem;
+  const std::string refusal = refusal_text(consent_.consent(), wall_time());
+  own.ready = now.link.state == LinkState::armed && !now.stopped && refusal.empty();
+  own.reason = stop_.stopped()    ? stop_.reason()
+               : now.stopped      ? now.stop_reason
+               : own.ready        ? ""
+               : !refusal.empty() ? refusal + " (the wearer's own time)"
+                                  : "no jacket answers: " + now.link.problem;
   for (const auto& sender : senders_.all())
     sender->connection.keep(own, stop_, wall_time());
 }

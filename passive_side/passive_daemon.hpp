@@ -7,6 +7,7 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <thread>
 #include <vector>
@@ -15,11 +16,14 @@
 #include "common/version.hpp"
 #include "config/config.hpp"
 #include "connected_sender.hpp"
+#include "consent_switch.hpp"
 #include "daemon/connections.hpp"
 #include "daemon/stop_switch.hpp"
+#include "gpio/panel.hpp"
 #include "hug_back.hpp"
 #include "jacket/jacket_profile.hpp"
 #include "jacket_trial.hpp"
+#include "limit_notes.hpp"
 #include "passive_pipeline.hpp"
 #include "safety/safety_stage.hpp"
 #include "service/control_server.hpp"
@@ -41,6 +45,7 @@ struct TrialOutcome {
 struct DriveThreadState {
   LinkStatus link;
   SafetyCounters safety;
+  HeaterReports heaters;
   bool stopped = false;
   std::string stop_reason;
   std::vector<std::uint8_t> running;  // ids of actuators
@@ -61,11 +66,17 @@ struct GivenAnswer {
   SenderNumber sender = 0;
 };
 
+// A line of the configuration that the jacket is not driven without can't be had.
+class LineMissing : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
 // The child's PC: one thread from the touch events to the jacket, the calling one for everything that may take its
 // time. Everyone whom the wearer has granted a pair may touch, each through a connection of their own.
 class PassiveDaemon {
  public:
-  // Throws AlreadyRunning, std::runtime_error or std::invalid_argument with a sentence for a person.
+  // Throws AlreadyRunning, LineMissing, std::runtime_error or std::invalid_argument with a sentence for a person.
   PassiveDaemon(const PassiveConfig& config, Memberships memberships, JacketProfile profile,
                 std::unique_ptr<JacketLink> link, const Clock& clock);
   ~PassiveDaemon();
@@ -87,22 +98,32 @@ class PassiveDaemon {
   void hear(ConnectedSender& sender, Timestamp now);
   void process_newest_event(ConnectedSender& sender);
   void follow_stops(Timestamp now);
+  void follow_consent();
   void follow_trial(Timestamp now);
   void tell_running(Timestamp now);
   void tell_state(Timestamp now);
+  void tell_panel(Timestamp now);
 
   // Housekeeping
   [[nodiscard]] bool follow_pairs();
   void tell_watchers();
+  void tell_of_limits();
   void keep_connections();
   void answer_commands();
+  void answer_hug_button();
   nlohmann::json order_hug(const nlohmann::json& request);
   nlohmann::json order_trial(const nlohmann::json& request);
   nlohmann::json describe_jacket(const nlohmann::json& request) const;
   nlohmann::json status() const;
+  [[nodiscard]] std::string actuator_name(std::uint8_t id) const;
+  void add_safety_problems(nlohmann::json& list, const DriveThreadState& state) const;
+  void add_safety_status(nlohmann::json& answer, const DriveThreadState& state) const;
+  static void add_safety_counters(nlohmann::json& counters, const SafetyCounters& safety);
+  void add_panel(nlohmann::json& status) const;
   [[nodiscard]] std::vector<ConnectionStatus> connections() const;
   nlohmann::json problems(const DriveThreadState& state, const std::vector<ConnectionStatus>& connections) const;
   [[nodiscard]] DriveThreadState state() const;
+  [[nodiscard]] std::unique_ptr<Panel> make_panel();
 
   PassiveConfig config_;
   const std::vector<std::string> left_out_;  // pairs that could not be used at the start, and why
@@ -119,6 +140,9 @@ class PassiveDaemon {
   Timestamp told_state_;
   DriveThreadState own_state_;
   JacketTrial trial_;
+  Consent wanted_;
+  WallTime wall_;                           // of the last look at the clock
+  int local_minute_now_ = 0;                // then
   std::array<bool, max_senders> driven_{};  // the numbers of those that are connected
   boost::container::static_vector<std::uint8_t, max_actuators> told_running_;
   Counter& events_received_;
@@ -134,6 +158,8 @@ class PassiveDaemon {
   };
   LatestSlot<OrderedTrial> trial_request_;
   StopSwitch stop_;
+  ConsentSwitch consent_;
+  std::atomic<bool> hug_pressed_ = false;  // on the jacket's button, and not answered yet
   std::atomic<bool> ending_ = false;
   mutable std::mutex state_mutex_;
   DriveThreadState state_;
@@ -142,13 +168,17 @@ class PassiveDaemon {
 
   // Housekeeping
   SayOnChange say_jacket_;
+  SayOnChange say_consent_;
+  LimitNotes limit_notes_;
 
   std::uint64_t trials_ordered_ = 0;  // the control thread's
-  HugBack hug_back_;                  // likewise
+  std::mutex hug_mutex_;
+  HugBack hug_back_;  // guarded by it
   Counter& hugs_sent_;
   Counter& hugs_too_soon_;
 
   Senders senders_;
+  std::unique_ptr<Panel> panel_;
   std::unique_ptr<ControlServer> control_;
   std::thread drive_thread_;
 };

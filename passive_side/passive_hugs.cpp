@@ -12,6 +12,7 @@ nlohmann::json PassiveDaemon::order_hug(const nlohmann::json& request) {
   if (!wanted) return {{"error", wanted.error().message}};
   if (wanted->duration) return {{"error", "a hug back is seen and heard, and has no length: leave the seconds out"}};
   if (!any_alive(connections())) return {{"error", "no peer is connected: nobody could see the hug"}};
+  const std::lock_guard lock(hug_mutex_);  // a button and the command at once
   const auto hug = hug_back_.next(wanted->strength, clock_.now());
   if (!hug) {
     hugs_too_soon_.add();

@@ -39,7 +39,8 @@ const FeltAnswers& PassivePipeline::process(const TouchEvent& event, Timestamp r
   }
   if (touch != nullptr && its_turn) {
     note_gesture(*touch);
-    const JacketPlan& plan = renderer_.plan(event, {touch->transitions.data(), touch->transitions.size()}, ordered);
+    const TouchEvent& allowed = muted_.leave_out(*touch, safety_.permission().muted_boxes);
+    const JacketPlan& plan = renderer_.plan(allowed, muted_.fresh(), ordered);
     const Timestamp planned = clock_.now();
     const SafetyVerdict verdict = safety_.apply(sender_, plan.drives, planned);
     answer(plan, verdict, event, received);
@@ -71,27 +72,33 @@ void PassivePipeline::note_gesture(const OrderedTouch& touch) {
 
 void PassivePipeline::answer(const JacketPlan& plan, const SafetyVerdict& verdict, const TouchEvent& event,
                              Timestamp received) {
-  const std::int64_t driven_time_ns = to_ns(clock_.now());
   for (const ContactAnswer& planned : plan.answers) {
     FeltOutcome outcome = planned.outcome;
     if (outcome == FeltOutcome::driven) {
-      outcome = verdict.outcome == FeltOutcome::driven
-                    ? verdict.outcome_at({planned.actuators.data(), planned.actuators.size()})
-                    : verdict.outcome;
+      outcome = verdict.outcome_at({planned.actuators.data(), planned.actuators.size()});
     }
-    if (!is_news(planned, outcome)) continue;
-    Felt& felt = answers_.emplace_back();
-    felt.session = session_;
-    felt.touch_session = event.session;
-    felt.touch_sequence = planned.touch_sequence;
-    felt.contact_id = planned.contact_id;
-    felt.phase = planned.phase;
-    felt.box = planned.box;
-    felt.outcome = outcome;
-    if (outcome == FeltOutcome::driven) felt.actuators = planned.actuators;
-    felt.received_time_ns = to_ns(received);
-    felt.driven_time_ns = outcome == FeltOutcome::driven ? driven_time_ns : 0;
+    give(planned, outcome, event, received);
   }
+  for (const Transition& muted : muted_.left_out()) {
+    const Contact& contact = muted.contact;
+    give({muted.event_sequence, contact.id, contact.phase, contact.box, {}, {}}, FeltOutcome::muted, event, received);
+  }
+}
+
+void PassivePipeline::give(const ContactAnswer& planned, FeltOutcome outcome, const TouchEvent& event,
+                           Timestamp received) {
+  if (answers_.size() == answers_.capacity() || !is_news(planned, outcome)) return;
+  Felt& felt = answers_.emplace_back();
+  felt.session = session_;
+  felt.touch_session = event.session;
+  felt.touch_sequence = planned.touch_sequence;
+  felt.contact_id = planned.contact_id;
+  felt.phase = planned.phase;
+  felt.box = planned.box;
+  felt.outcome = outcome;
+  if (outcome == FeltOutcome::driven) felt.actuators = planned.actuators;
+  felt.received_time_ns = to_ns(received);
+  felt.driven_time_ns = outcome == FeltOutcome::driven ? to_ns(clock_.now()) : 0;
 }
 
 void PassivePipeline::refuse(FeltOutcome outcome, const OrderedTouch& touch, Timestamp received) {

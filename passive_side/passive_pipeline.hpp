@@ -7,6 +7,7 @@
 #include "common/clock.hpp"
 #include "common/messages.hpp"
 #include "jacket/jacket_profile.hpp"
+#include "muted_touches.hpp"
 #include "rendering/jacket_renderer.hpp"
 #include "safety/safety_stage.hpp"
 #include "service/metrics.hpp"
@@ -38,6 +39,9 @@ class PassivePipeline {
     staleness_.observe(heartbeat.session, heartbeat.sent_time_ns, now);
   }
 
+  // What has touched so far is off and forgotten; the next event takes up what still may be felt.
+  void forget_touches(Timestamp now);
+
   // What the newest contact of the last event that could be felt is, or was.
   [[nodiscard]] Gesture last_gesture() const noexcept { return last_gesture_; }
 
@@ -45,8 +49,8 @@ class PassivePipeline {
   void note_gesture(const OrderedTouch& touch);
   void answer(const JacketPlan& plan, const SafetyVerdict& verdict, const TouchEvent& event, Timestamp received);
   void refuse(FeltOutcome outcome, const OrderedTouch& touch, Timestamp received);
+  void give(const ContactAnswer& planned, FeltOutcome outcome, const TouchEvent& event, Timestamp received);
   [[nodiscard]] bool is_news(const ContactAnswer& answer, FeltOutcome outcome);
-  void forget_touches(Timestamp now);
   void tell_counters();
 
   const SenderNumber sender_;
@@ -56,6 +60,7 @@ class PassivePipeline {
   const Clock& clock_;
   TouchOrder order_;
   Staleness staleness_;
+  MutedTouches muted_;
   JacketRenderer renderer_;
   FeltAnswers answers_;
   Gesture last_gesture_ = Gesture::none;

@@ -5,6 +5,7 @@
 
 #include "common/names.hpp"
 #include "daemon/status_parts.hpp"
+#include "jacket_status.hpp"
 #include "passive_daemon.hpp"
 
 namespace telehug {
@@ -31,11 +32,6 @@ Json felt_json(const Felt& felt) {
           {"driven_time_ns", felt.driven_time_ns}};
 }
 
-const char* name_of(LinkState state) {
-  constexpr const char* names[] = {"absent", "connecting", "armed"};
-  return names[static_cast<std::size_t>(state)];
-}
-
 }  // namespace
 
 void PassiveDaemon::answer_commands() {
@@ -44,18 +40,17 @@ void PassiveDaemon::answer_commands() {
   control_->on("jacket", [this](const Json& request) { return describe_jacket(request); });
   control_->on("jacket_trial", [this](const Json& request) { return order_trial(request); });
   stop_.serve(*control_);
+  consent_.serve(*control_, [this] { bell_.put(true); });
 }
 
 Json PassiveDaemon::problems(const DriveThreadState& now, const std::vector<ConnectionStatus>& connections) const {
   Json list = Json::array();
-  if (now.link.state != LinkState::armed) {
-    list.push_back(problem_json(fmt::format("no jacket answers on {}: {}", now.link.device, now.link.problem),
-                                "check its cable and power, and [jacket] link in the configuration"));
-  }
+  add_jacket_problems(list, now.link);
   add_pair_ends(list, connections);
   if (stop_.stopped()) list.push_back(problem_json("stopped here: " + stop_.reason(), "run `telehug resume`"));
   for (const ConnectionStatus& connection : connections)
     if (connection.stopped_by_peer) list.push_back(peer_stop_problem_json(connection));
+  add_safety_problems(list, now);
   for (const std::string& pair : left_out_)
     list.push_back(problem_json(pair, "the other pairs work; start telehug-passive again when it is mended"));
   add_absences(list, Side::passive, connections);
@@ -66,25 +61,10 @@ Json PassiveDaemon::status() const {
   const DriveThreadState now = state();
   const auto connected = connections();
   const bool armed = now.link.state == LinkState::armed;
+  const bool refused = !refusal_text(consent_.consent(), wall_time()).empty();
   Json counters = metrics_.counters_json();
   count_connections(counters, connected);
-  const SafetyCounters& safety = now.safety;
-  counters["safety_accepted"] = safety.drives_accepted;
-  counters["safety_refused_unknown_actuator"] = safety.refused_unknown_actuator;
-  counters["safety_refused_not_finite"] = safety.refused_not_finite;
-  counters["safety_refused_by_limit"] = safety.refused_by_limit;
-  counters["safety_refused_stopped"] = safety.refused_stopped;
-  counters["safety_refused_no_sender"] = safety.refused_no_sender;
-  counters["safety_refused_no_jacket"] = safety.refused_no_jacket;
-  counters["safety_clamped_strength"] = safety.clamped_strength;
-  counters["safety_clamped_end"] = safety.clamped_end;
-  counters["off_ended"] = safety.off_ended;
-  counters["off_expired"] = safety.off_expired;
-  counters["off_stop"] = safety.off_stop;
-  counters["off_asked"] = safety.off_asked;
-  counters["off_heartbeat_lost"] = safety.off_heartbeat_lost;
-  counters["off_link_lost"] = safety.off_link_lost;
-  counters["off_clock_jumped"] = safety.off_clock_jumped;
+  add_safety_counters(counters, now.safety);
   counters["jacket_reconnects"] = now.link.reconnects;
   counters["jacket_frames_sent"] = now.link.frames_sent;
   counters["jacket_frames_received"] = now.link.frames_received;
@@ -97,19 +77,16 @@ Json PassiveDaemon::status() const {
                  {"uptime_s", std::chrono::duration<double>(clock_.now() - started_).count()},
                  {"state", now.stopped             ? "stopped"
                            : !armed                ? "fault"
+                           : refused               ? "paused"
                            : !any_alive(connected) ? "waiting"
                                                    : "ok"},
                  {"problems", problems(now, connected)},
-                 {"jacket",
-                  {{"name", profile_.name},
-                   {"device", now.link.device},
-                   {"state", name_of(now.link.state)},
-                   {"firmware", now.link.firmware_version},
-                   {"motors", now.link.motor_count},
-                   {"running", id_list(now.running)}}},
+                 {"jacket", jacket_json(profile_.name, now.link, now.running)},
                  {"counters", counters},
                  {"latency_ms", metrics_.latencies_json()}};
+  add_safety_status(answer, now);
   add_connections(answer, connected);
+  add_panel(answer);
   if (now.last_felt) {
     answer["last_touch"] = felt_json(*now.last_felt);
     answer["last_touch"]["gesture"] = name_of(now.last_gesture);
@@ -137,7 +114,11 @@ void PassiveDaemon::tell_watchers() {
                          {"actuators", id_list(change.actuators)}});
   }
   const DriveThreadState now = state();
-  if (now.link.state == LinkState::armed) {
+  if (now.link.state == LinkState::armed && !now.link.answers) {
+    say_jacket_.say(
+        spdlog::level::info,
+        fmt::format("jacket on {}: it answers nothing, so whether it is there is not known", now.link.device));
+  } else if (now.link.state == LinkState::armed) {
     say_jacket_.say(spdlog::level::info, fmt::format("jacket ready: {}, firmware {}, {} motors", now.link.device,
                                                      now.link.firmware_version, now.link.motor_count));
   } else {

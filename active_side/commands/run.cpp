@@ -35,8 +35,10 @@ ExitCode run(const Options& options) {
   }
   auto camera = make_frame_source(config->camera.source, capture, clock);
   if (!camera) return fail(ExitCode::config, camera.error());
+  auto feedback = FeltFeedback::make(config->feedback, clock);
+  if (!feedback) return fail(ExitCode::config, feedback.error());
   try {
-    ActiveDaemon daemon(*config, *std::move(found), *std::move(camera), clock);
+    ActiveDaemon daemon(*config, *std::move(found), *std::move(camera), *std::move(feedback), clock);
     return daemon.run(signals);
   } catch (const AlreadyRunning& running) {
     return fail(ExitCode::already_running, Error{running.what()});

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "common/clock.hpp"
-#include "session_bus/bus_connection.hpp"
+#include "bus/bus_connection.hpp"
 
 namespace telehug {
 

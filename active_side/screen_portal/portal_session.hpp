@@ -7,7 +7,7 @@
 
 #include "common/clock.hpp"
 #include "screen_portal/portal_messages.hpp"
-#include "session_bus/bus_connection.hpp"
+#include "bus/bus_connection.hpp"
 
 struct pollfd;
 

@@ -85,6 +85,12 @@ struct HugConfig {
   bool notify = true;
 };
 
+struct FeedbackConfig {
+  std::string link;  // empty: none; read it with parse_jacket_link()
+  std::string profile = "ring-1.toml";
+  double strength = 0.6;  // 0..1
+};
+
 struct ActiveConfig {
   CameraConfig camera;
   RigConfig rig;
@@ -94,6 +100,7 @@ struct ActiveConfig {
   SendingConfig sending;
   OverlayConfig overlay;
   HugConfig hug;
+  FeedbackConfig feedback;
   PeerConfig peer;
   int heartbeat_timeout_ms = 250;  // [peer]
   ControlConfig control;
@@ -101,10 +108,10 @@ struct ActiveConfig {
 };
 
 struct JacketConfig {
-  std::string profile;             // empty: see jacket_profile_file()
-  std::string overrides;           // file; empty: none
-  std::string link = "simulated";  // read it with parse_jacket_link()
-  int baud = 0;                    // 0: the profile's
+  std::string profile;                     // empty: see jacket_profile_file()
+  std::string overrides;                   // file; empty: none
+  std::string link = "simulated";          // read it with parse_jacket_link()
+  int baud = 0;                            // 0: the profile's
   std::string several_senders = "merged";  // merged, exclusive
 };
 
@@ -112,11 +119,35 @@ struct SafetyConfig {
   double max_strength = 1.0;  // 0..1
   int drive_ms = 200;
   int heartbeat_timeout_ms = 250;
+  double max_celsius = 40;
+};
+
+struct ConsentConfig {
+  std::string quiet_hours;  // read it with parse_quiet_hours()
+  std::string file;         // empty: see consent_file()
+};
+
+// Lines are named by their number or their name; empty: there is none.
+struct GpioConfig {
+  std::string chip;  // path, name or label; "simulated:DIR"
+  std::string stop_button_line;
+  bool stop_button_active_low = false;
+  int stop_button_resume_s = 5;  // 0: never
+  std::string hug_button_line;
+  bool hug_button_active_low = true;
+  std::string button_pull = "up";  // up, down, none
+  int debounce_ms = 10;
+  std::string power_line;
+  bool power_active_low = false;
+  std::string led_line;
+  bool led_active_low = false;
 };
 
 struct PassiveConfig {
   JacketConfig jacket;
   SafetyConfig safety;
+  ConsentConfig consent;
+  GpioConfig gpio;
   PeerConfig peer;
   ControlConfig control;
   LogConfig log;

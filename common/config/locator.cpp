@@ -9,6 +9,8 @@
 #include <charconv>
 #include <optional>
 
+#include "common/rfcomm_peer.hpp"
+
 namespace telehug {
 namespace {
 
@@ -128,8 +130,20 @@ Result<JacketLinkChoice> parse_jacket_link(std::string_view text) {
   if (text == "simulated") return JacketLinkChoice{JacketLinkKind::simulated, {}};
   if (auto path = after("serial:", text)) return JacketLinkChoice{JacketLinkKind::serial, *path};
   if (auto path = after("record:", text)) return JacketLinkChoice{JacketLinkKind::recorded, *path};
+  if (auto device = after("rfcomm:", text); device && parse_rfcomm_peer(*device)) {
+    return JacketLinkChoice{JacketLinkKind::bluetooth, *device};
+  }
   return Error{
-      fmt::format("\"{}\" is not a jacket link: it is \"serial:PATH\", \"simulated\" or \"record:FILE\"", text)};
+      fmt::format("\"{}\" is not a jacket link: it is \"serial:PATH\", \"rfcomm:ADDRESS\" (such as 00:11:22:33:44:55, "
+                  "with a channel 00:11:22:33:44:55/1), \"simulated\" or \"record:FILE\"",
+                  text)};
+}
+
+Result<std::optional<JacketLinkChoice>> parse_optional_jacket_link(std::string_view text) {
+  if (text.empty()) return std::optional<JacketLinkChoice>();
+  auto link = parse_jacket_link(text);
+  if (!link) return link.error();
+  return std::optional(*std::move(link));
 }
 
 }  // namespace telehug

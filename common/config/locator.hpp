@@ -52,14 +52,17 @@ struct ScreenRegion {
 // One IPv4 address, or empty.
 [[nodiscard]] Result<std::string> parse_address(std::string_view text);
 
-enum class JacketLinkKind { serial, simulated, recorded };
+enum class JacketLinkKind { serial, bluetooth, simulated, recorded };
 
 struct JacketLinkChoice {
   JacketLinkKind kind = JacketLinkKind::simulated;
-  std::string path;  // of the serial device, or of the file that is recorded to
+  std::string path;  // of the serial device (or "auto"), of Bluetooth, or of the file that is recorded to
 };
 
-// "serial:PATH", "simulated" or "record:FILE".
+// "serial:PATH", "serial:auto", "rfcomm:ADDRESS", "rfcomm:ADDRESS/CHANNEL", "simulated" or "record:FILE".
 [[nodiscard]] Result<JacketLinkChoice> parse_jacket_link(std::string_view text);
+
+// Likewise; an empty text is none.
+[[nodiscard]] Result<std::optional<JacketLinkChoice>> parse_optional_jacket_link(std::string_view text);
 
 }  // namespace telehug

@@ -48,13 +48,20 @@ std::filesystem::path pairs_folder(const PeerConfig& config, Side side) {
   return state_folder() / "pairs" / (side == Side::active ? "active" : "passive");
 }
 
-std::filesystem::path jacket_profile_file(const JacketConfig& config) {
+std::filesystem::path consent_file(const ConsentConfig& config) {
+  return config.file.empty() ? state_folder() / "consent.json" : std::filesystem::path(config.file);
+}
+
+std::filesystem::path installed_jacket_file(const std::filesystem::path& given) {
   const std::filesystem::path installed = std::filesystem::path(TELEHUG_DATA_DIR) / "jackets";
-  if (config.profile.empty()) return installed / "duemilanove-16.toml";
-  std::filesystem::path given = config.profile;
   std::error_code ignored;
   if (given.is_absolute() || std::filesystem::exists(given, ignored)) return given;
   return std::filesystem::exists(installed / given, ignored) ? installed / given : given;
+}
+
+std::filesystem::path jacket_profile_file(const JacketConfig& config) {
+  const std::filesystem::path installed = std::filesystem::path(TELEHUG_DATA_DIR) / "jackets";
+  return config.profile.empty() ? installed / "duemilanove-16.toml" : installed_jacket_file(config.profile);
 }
 
 }  // namespace telehug

@@ -26,8 +26,14 @@ namespace telehug {
 // The pairs of this PC as one side: as configured, else pairs/active or pairs/passive in the state folder.
 [[nodiscard]] std::filesystem::path pairs_folder(const PeerConfig& config, Side side);
 
-// The jacket profile: as configured, else the installed one of the 16-motor jacket. A relative path that does not
-// exist from here, such as "duemilanove-16.toml", is looked for among the installed profiles.
+// What the wearer wants, on the wearer's PC: as configured, else consent.json in the state folder.
+[[nodiscard]] std::filesystem::path consent_file(const ConsentConfig& config);
+
+// A relative path that does not exist from here, such as "duemilanove-16.toml", is looked for among the installed
+// jacket profiles.
+[[nodiscard]] std::filesystem::path installed_jacket_file(const std::filesystem::path& given);
+
+// The jacket profile: as configured, else the installed one of the 16-motor jacket.
 [[nodiscard]] std::filesystem::path jacket_profile_file(const JacketConfig& config);
 
 }  // namespace telehug

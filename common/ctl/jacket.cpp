@@ -12,6 +12,7 @@
 
 #include "ctl/command.hpp"
 #include "ctl/daemons.hpp"
+#include "ctl/jacket_flash.hpp"
 #include "ctl/plain_text.hpp"
 
 namespace telehug {
@@ -172,6 +173,7 @@ void add_jacket(CLI::App& app, ExitCode& result) {
 
   for (CLI::App* command : {lister, tester, walker})
     add_socket_option(*command, options->daemons);
+  add_jacket_flash(*jacket, result);
 }
 
 }  // namespace telehug

@@ -18,14 +18,18 @@ Examples:
   telehug watch                       touches and answers as they happen
   telehug stop --reason "dinner"      everything off, on both PCs
   telehug resume
+  telehug pause 30                    the wearer wants nothing felt for half an hour
+  telehug mute 8 13                   nor ever in these boxes
   telehug send off                    touches on this screen touch nobody
   telehug face next                   the other person in the picture is meant
   telehug hug --seconds 4             felt by the wearer; from the wearer's PC seen and heard by the sender
   telehug jacket identify             on the wearer's PC: runs the motors one by one, telling their names
+  telehug jacket flash                writes the firmware into the jacket
   telehug pair invite                 make a pair of this PC and another one
 
-Exit codes: 0 ok, 1 fault of telehug, 2 wrong command line, 5 no daemon is running, 6 peer absent (--check),
-  7 not allowed to use the socket, 8 the daemon does not answer properly, 9 the daemon refused, 11 stopped (--check),
+Exit codes: 0 ok, 1 fault of telehug, 2 wrong command line, 3 faulty configuration (jacket flash), 4 the jacket, its port,
+  the programmer or avrdude can't be used (jacket flash), 5 no daemon is running, 6 peer absent (--check), 7 not allowed to
+  use the socket, 8 the daemon does not answer properly, 9 the daemon refused, or you did when asked, 11 stopped or paused (--check),
   12 a side can't work (--check), 13 no network for `pair invite`.)";
 
 ExitCode parse_and_run(int argc, char** argv) {
@@ -38,6 +42,10 @@ ExitCode parse_and_run(int argc, char** argv) {
   telehug::add_watch(app, result);
   telehug::add_stop(app, result);
   telehug::add_resume(app, result);
+  telehug::add_pause(app, result);
+  telehug::add_unpause(app, result);
+  telehug::add_mute(app, result);
+  telehug::add_unmute(app, result);
   telehug::add_send(app, result);
   telehug::add_face(app, result);
   telehug::add_hug(app, result);

@@ -22,7 +22,7 @@ struct Options {
 ExitCode verdict(const nlohmann::json& status) {
   const std::string state = status.contains("state") ? text_of(status["state"]) : "";
   if (state == "fault") return ExitCode::fault;
-  if (state == "stopped") return ExitCode::stopped;
+  if (state == "stopped" || state == "paused") return ExitCode::stopped;
   const auto connected = status.value("/peer/connected"_json_pointer, nlohmann::json(true));
   return connected == false ? ExitCode::peer_absent : ExitCode::ok;
 }
@@ -61,7 +61,7 @@ void add_status(CLI::App& app, ExitCode& result) {
   add_daemon_options(*command, options->daemons);
   command->add_flag("--json", options->json, "Print {\"daemons\": [status, ...]} for programs");
   command->add_flag("--check", options->check,
-                    "End with 12 if a side reports a fault, 11 if stopped, 6 if its peer is absent");
+                    "End with 12 if a side reports a fault, 11 if stopped or paused, 6 if its peer is absent");
   command->callback([options, &result] { result = run(*options); });
 }
 

@@ -109,7 +109,36 @@ std::string thing_text(std::string_view label, const Json& thing) {
   std::string text = joined(text_at(thing, "name"), ", ", text_at(thing, "gesture"));
   if (part(thing, "open") != nullptr) text = joined(text, ", ", flag_at(thing, "open") ? "open" : "closed");
   text = joined(text, ": ", text_at(thing, "why"));
-  return line(label, joined(text, ", ", rest_of(thing, {"name", "gesture", "open", "why", "places_px"})));
+  return line(label, joined(text, ", ", rest_of(thing, {"name", "gesture", "open", "why", "places_px", "heaters"})));
+}
+
+// A line for each heater of the jacket.
+std::string heaters_text(const Json& jacket) {
+  const Json* heaters = part(jacket, "heaters");
+  if (heaters == nullptr || !heaters->is_array()) return "";
+  std::string text;
+  int number = 0;
+  for (const Json& heater : *heaters) {
+    const Json* celsius = part(heater, "celsius");
+    const std::string fault = text_at(heater, "fault");
+    text += line(fmt::format("heater {}", number++),
+                 joined(celsius != nullptr && celsius->is_number() ? fmt::format("{:.1f} C", celsius->get<double>())
+                                                                   : "no reading",
+                        ", ", fault == "none" ? "" : fault));
+  }
+  return text;
+}
+
+// One line for each of several, such as heaters.
+std::string things_text(std::string_view label, const Json& things) {
+  const auto is_object = [](const Json& thing) { return thing.is_object(); };
+  if (!things.is_array() || things.empty() || !std::all_of(things.begin(), things.end(), is_object)) {
+    return thing_text(label, things);
+  }
+  std::string text;
+  for (const Json& thing : things)
+    text += thing_text(label, thing);
+  return text;
 }
 
 std::string counters_text(const Json& counters) {
@@ -140,8 +169,8 @@ std::string latencies_text(const Json& stages) {
 }  // namespace
 
 std::string status_text(const Json& status) {
-  static constexpr std::array<const char*, 7> things{"camera", "screen",     "face",    "sending",
-                                                     "jacket", "last_touch", "last_hug"};
+  static constexpr std::array<const char*, 8> things{"camera",  "screen", "face",       "sending",
+                                                     "consent", "jacket", "last_touch", "last_hug"};
   static constexpr std::array<const char*, 9> placed{"side", "version", "uptime_s", "state",     "problems",
                                                      "peer", "peers",   "counters", "latency_ms"};
   std::string text = heading(status);
@@ -150,7 +179,7 @@ std::string status_text(const Json& status) {
   for (const char* name : things) {
     std::string label = name;
     std::replace(label.begin(), label.end(), '_', ' ');
-    if (const Json* thing = part(status, name)) text += thing_text(label, *thing);
+    if (const Json* thing = part(status, name)) text += thing_text(label, *thing) + heaters_text(*thing);
   }
   if (status.is_object()) {
     for (const auto& [name, value] : status.items()) {
@@ -160,7 +189,7 @@ std::string status_text(const Json& status) {
           std::any_of(placed.begin(), placed.end(), is)) {
         continue;
       }
-      text += thing_text(plain_text(name), value);
+      text += things_text(plain_text(name), value);
     }
   }
   if (const Json* counters = part(status, "counters")) text += counters_text(*counters);

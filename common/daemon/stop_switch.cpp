@@ -36,20 +36,43 @@ void StopSwitch::serve(ControlServer& control) {
 }
 
 nlohmann::json StopSwitch::stop(const nlohmann::json& request) {
-  return set(true, reason_in(request));
+  std::string reason = reason_in(request);
+  {
+    const std::lock_guard lock(mutex_);
+    set(true, reason);
+  }
+  spdlog::warn("stopped: {}", reason);
+  return {{"stopped", true}};
 }
 
 nlohmann::json StopSwitch::resume() {
-  return set(false, "");
+  {
+    const std::lock_guard lock(mutex_);
+    if (obstacle_) return {{"error", *obstacle_}};
+    set(false, "");
+  }
+  spdlog::warn("resumed");
+  return {{"stopped", false}};
 }
 
-nlohmann::json StopSwitch::set(bool stopped, std::string reason) {
-  spdlog::warn("{}", stopped ? "stopped: " + reason : "resumed");
+void StopSwitch::hold(std::string reason, std::string obstacle) {
+  {
+    const std::lock_guard lock(mutex_);
+    set(true, reason);
+    obstacle_ = std::move(obstacle);
+  }
+  spdlog::warn("stopped: {}", reason);
+}
+
+void StopSwitch::release() {
   const std::lock_guard lock(mutex_);
+  obstacle_.reset();
+}
+
+void StopSwitch::set(bool stopped, std::string reason) {
   reason_ = std::move(reason);
   stopped_ = stopped;
   ever_set_ = true;
-  return {{"stopped", stopped}};
 }
 
 std::string StopSwitch::reason() const {

@@ -4,6 +4,7 @@
 #include <atomic>
 #include <mutex>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 
 #include "peer_link/peer_link.hpp"
@@ -19,7 +20,14 @@ class StopSwitch {
 
   // Stops whatever the request says beside it: a reason that is no text is left out.
   nlohmann::json stop(const nlohmann::json& request);
+  // Refused while it is held.
   nlohmann::json resume();
+
+  // Stops, and lets nobody resume until release(), for what stands pressed or is broken. obstacle: a sentence that
+  // tells who wants to resume why not, and what to do.
+  void hold(std::string reason, std::string obstacle);
+  // Still stopped.
+  void release();
 
   // --- any thread; nobody waits here for the network ---
 
@@ -34,12 +42,13 @@ class StopSwitch {
   void tell(PeerLink& peer) const;
 
  private:
-  nlohmann::json set(bool stopped, std::string reason);
+  void set(bool stopped, std::string reason);  // with mutex_ held
 
   std::atomic<bool> stopped_ = false;
   mutable std::mutex mutex_;
-  std::string reason_;     // guarded by mutex_
-  bool ever_set_ = false;  // likewise
+  std::string reason_;                   // guarded by mutex_
+  bool ever_set_ = false;                // likewise
+  std::optional<std::string> obstacle_;  // likewise: while held
 };
 
 }  // namespace telehug

@@ -15,9 +15,9 @@ enum class ExitCode : int {
   peer_absent = 6,       // the other side isn't connected (only where a command asks for it)
   permission = 7,        // the local socket may not be used by this user
   bad_answer = 8,        // the daemon did not answer in time, or not in its language
-  refused = 9,           // the daemon understood and refused
+  refused = 9,           // the daemon understood and refused, or the user when asked
   already_running = 10,  // another daemon serves the same socket
-  stopped = 11,          // stop is latched (only where a command asks for it)
+  stopped = 11,          // stop is latched, or the wearer has paused (only where a command asks for it)
   fault = 12,            // a side reports that it can't work (only where a command asks for it)
   network = 13,          // DDS can't be set up on this PC
   mismatch = 14,         // a demo or comparison ran, and what came out is not what should have

@@ -57,7 +57,8 @@ DemoWorld::DemoWorld(const DemoSettings& settings)
     passive.insert(passive.end(), {"--set", value});
   for (const std::string& value :
        {"jacket.link=serial:" + port, "jacket.profile=" + settings_.profile.string(),
-        "control.socket=" + passive_socket_.string(), "log.level=" + settings_.active_level}) {
+        "consent.file=" + (folder_ / "consent.json").string(), "control.socket=" + passive_socket_.string(),
+        "log.level=" + settings_.active_level}) {
     passive.insert(passive.end(), {"--set", value});
   }
   passive_ = std::make_unique<ChildProcess>(passive, folder_ / "passive.log");

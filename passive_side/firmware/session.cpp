@@ -3,6 +3,9 @@
 
 #include <util/crc16.h>
 
+#include "analog.hpp"
+#include "board.hpp"
+#include "heaters.hpp"
 #include "link/cobs.hpp"
 #include "link/protocol.hpp"
 #include "motors.hpp"
@@ -37,14 +40,21 @@ uint16_t crc_of(const uint8_t* bytes, uint8_t length) {
   return crc;
 }
 
+uint16_t u16_at(const uint8_t* at) {
+  return at[0] | static_cast<uint16_t>(at[1] << 8);
+}
+
 void put_u16(uint8_t* at, uint16_t value) {
   at[0] = value & 0xFF;
   at[1] = value >> 8;
 }
 
+constexpr uint8_t telemetry_bytes = protocol::telemetry_bytes + board::heater_count * protocol::temperature_bytes;
+constexpr uint8_t longest_answer = telemetry_bytes > protocol::caps_bytes ? telemetry_bytes : protocol::caps_bytes;
+
 // An answer for which the ring has no room is dropped: the host asks again, the motors can't wait.
 void answer(FrameType type, uint8_t sequence, const uint8_t* payload, uint8_t length) {
-  constexpr uint8_t longest = protocol::header_bytes + protocol::caps_bytes + protocol::crc_bytes;
+  constexpr uint8_t longest = protocol::header_bytes + longest_answer + protocol::crc_bytes;
   uint8_t plain[longest];
   uint8_t encoded[longest + 1];
   plain[0] = static_cast<uint8_t>(type);
@@ -78,9 +88,9 @@ void on_hello(const Frame& frame) {
   const uint8_t caps[protocol::caps_bytes] = {
       protocol::version,
       TELEHUG_FIRMWARE_VERSION,
-      protocol::motor_count,
-      0,  // heaters
-      0,  // temperatures
+      board::motor_count,
+      board::heater_count,
+      board::heater_count,  // temperatures
       protocol::intensity_levels,
       protocol::encoded_max_bytes,
       protocol::keepalive_ms / 10,
@@ -97,7 +107,7 @@ void on_set(const Frame& frame) {
     return refuse(frame, NackReason::bad_length);
   }
   for (uint8_t i = 0; i < frame.length; i += protocol::set_entry_bytes) {
-    if (frame.payload[i] >= protocol::motor_count) return refuse(frame, NackReason::bad_channel);
+    if (frame.payload[i] >= board::motor_count) return refuse(frame, NackReason::bad_channel);
   }
   motors::begin_change();
   for (uint8_t i = 0; i < frame.length; i += protocol::set_entry_bytes) {
@@ -110,26 +120,52 @@ void on_set(const Frame& frame) {
 
 void on_set_all(const Frame& frame) {
   if (frame.length != protocol::set_all_bytes) return refuse(frame, NackReason::bad_length);
-  const uint16_t duration_ms =
-      frame.payload[protocol::motor_count] | static_cast<uint16_t>(frame.payload[protocol::motor_count + 1] << 8);
+  const uint16_t duration_ms = u16_at(frame.payload + protocol::motor_count);
+  for (uint8_t channel = board::motor_count; channel < protocol::motor_count; ++channel) {
+    if (frame.payload[channel] != 0) return refuse(frame, NackReason::bad_channel);
+  }
   motors::begin_change();
-  for (uint8_t channel = 0; channel < protocol::motor_count; ++channel) {
+  for (uint8_t channel = 0; channel < board::motor_count; ++channel) {
     motors::set(channel, frame.payload[channel], duration_ms);
   }
   motors::commit_change();
   accept(frame);
 }
 
+void on_heat(const Frame& frame) {
+  if (board::heater_count == 0) return refuse(frame, NackReason::unknown_type);
+  if (frame.length == 0 || frame.length % protocol::heat_entry_bytes != 0) {
+    return refuse(frame, NackReason::bad_length);
+  }
+  for (uint8_t i = 0; i < frame.length; i += protocol::heat_entry_bytes) {
+    const uint8_t* entry = frame.payload + i;
+    const uint8_t number = entry[0] + 1;
+    if (number == 0 || number > board::heater_count) return refuse(frame, NackReason::bad_channel);
+    if (u16_at(entry + 1) > protocol::heat_max_decidegrees) return refuse(frame, NackReason::bad_value);
+  }
+  for (uint8_t i = 0; i < frame.length; i += protocol::heat_entry_bytes) {
+    const uint8_t* entry = frame.payload + i;
+    heaters::set(entry[0], u16_at(entry + 1), uint16_t{entry[3]} * 10);
+  }
+  accept(frame);
+}
+
 void on_status(const Frame& frame) {
   if (frame.length != 0) return refuse(frame, NackReason::bad_length);
-  uint8_t telemetry[protocol::telemetry_bytes];
+  uint8_t telemetry[telemetry_bytes];
   put_u16(telemetry, frames_ok);
   put_u16(telemetry + 2, frames_malformed);
   put_u16(telemetry + 4, uart::overruns());
   telemetry[6] = watchdog::reset_cause();
   telemetry[7] = motors::armed() ? 1 : 0;
   put_u16(telemetry + 8, motors::running());
-  put_u16(telemetry + 10, 0);  // the supply is not measured
+  put_u16(telemetry + 10, analog::supply_mv());
+  uint8_t* at = telemetry + protocol::telemetry_bytes;
+  for (uint8_t heater = 0; heater != board::heater_count; ++heater) {
+    put_u16(at, static_cast<uint16_t>(heaters::temperature(heater)));
+    at[2] = static_cast<uint8_t>(heaters::fault(heater));
+    at += protocol::temperature_bytes;
+  }
   answer(FrameType::telemetry, frame.sequence, telemetry, sizeof telemetry);
 }
 
@@ -141,6 +177,8 @@ void act_on(const Frame& frame) {
       return on_set(frame);
     case FrameType::set_all:
       return on_set_all(frame);
+    case FrameType::heat:
+      return on_heat(frame);
     default:
       return refuse(frame, NackReason::unknown_type);
   }
@@ -174,8 +212,7 @@ void end_of_frame() {
   constexpr uint8_t shortest = protocol::header_bytes + protocol::crc_bytes;
   if (length >= shortest) {
     const uint8_t covered = length - protocol::crc_bytes;
-    const uint16_t crc = buffer[covered] | static_cast<uint16_t>(buffer[covered + 1] << 8);
-    if (crc == crc_of(buffer, covered)) {
+    if (u16_at(buffer + covered) == crc_of(buffer, covered)) {
       ++frames_ok;
       handle({buffer[0], buffer[1], buffer + protocol::header_bytes,
               static_cast<uint8_t>(covered - protocol::header_bytes)});

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The microcontroller's end of the protocol: bytes in, motors driven, answers out.
+// The microcontroller's end of the protocol: bytes in, motors and heaters driven, answers out. The board `legacy` has
+// legacy_session.cpp in place of session.cpp.
 #pragma once
 
 #include <stdint.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Resets the microcontroller (all pins off) when the main loop hangs for 120 ms.
+// Resets the microcontroller (all pins off) when the main loop or the timer interrupt hangs for 120 ms.
 #pragma once
 
 #include <stdint.h>

@@ -76,10 +76,19 @@ std::optional<protocol::Caps> parse_caps(const Frame& frame) {
   return protocol::Caps{p[0], p[1], p[2], p[3], p[4], p[5], p[6], p[7], p[8], p[9], u16_at(p, 10)};
 }
 
-std::optional<protocol::Telemetry> parse_telemetry(const Frame& frame) {
+std::optional<ReceivedTelemetry> parse_telemetry(const Frame& frame) {
   const std::span<const std::uint8_t> p(frame.payload.data(), frame.payload.size());
-  if (frame.type != protocol::FrameType::telemetry || p.size() != protocol::telemetry_bytes) return std::nullopt;
-  return protocol::Telemetry{u16_at(p, 0), u16_at(p, 2), u16_at(p, 4), p[6], p[7], u16_at(p, 8), u16_at(p, 10)};
+  if (frame.type != protocol::FrameType::telemetry || p.size() < protocol::telemetry_bytes) return std::nullopt;
+  const std::size_t rest = p.size() - protocol::telemetry_bytes;
+  if (rest % protocol::temperature_bytes != 0 || rest / protocol::temperature_bytes > protocol::heater_count) {
+    return std::nullopt;
+  }
+  ReceivedTelemetry telemetry{{u16_at(p, 0), u16_at(p, 2), u16_at(p, 4), p[6], p[7], u16_at(p, 8), u16_at(p, 10)}, {}};
+  for (std::size_t at = protocol::telemetry_bytes; at < p.size(); at += protocol::temperature_bytes) {
+    telemetry.temperatures.push_back(
+        {static_cast<std::int16_t>(u16_at(p, at)), static_cast<protocol::HeaterFault>(p[at + 2])});
+  }
+  return telemetry;
 }
 
 }  // namespace telehug

@@ -45,8 +45,17 @@ class FrameDecoder {
   std::uint64_t malformed_ = 0;
 };
 
+struct Temperature {
+  std::int16_t decidegrees = protocol::no_temperature;
+  protocol::HeaterFault fault{};  // as received: may be a value that the enumeration lacks
+};
+
+struct ReceivedTelemetry : protocol::Telemetry {
+  boost::container::static_vector<Temperature, protocol::heater_count> temperatures;
+};
+
 // Empty if type or length of the frame is another.
 [[nodiscard]] std::optional<protocol::Caps> parse_caps(const Frame& frame);
-[[nodiscard]] std::optional<protocol::Telemetry> parse_telemetry(const Frame& frame);
+[[nodiscard]] std::optional<ReceivedTelemetry> parse_telemetry(const Frame& frame);
 
 }  // namespace telehug

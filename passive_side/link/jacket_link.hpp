@@ -32,13 +32,13 @@ using HeaterCommands = boost::container::static_vector<HeaterCommand, protocol::
 // What the microcontroller last told of itself.
 struct JacketTelemetry {
   Timestamp heard;
-  double supply_volts = 0;
-  std::uint8_t reset_cause = 0;  // MCUSR
+  double supply_volts = 0;       // 0: it does not measure it
+  std::uint8_t reset_cause = 0;  // MCUSR; words for it in jacket_telemetry.hpp
   std::uint16_t frames_malformed = 0;
   std::uint16_t bytes_overrun = 0;
   struct Heater {
-    std::optional<double> celsius;  // empty: no valid reading
-    protocol::HeaterFault fault = protocol::HeaterFault::none;
+    std::optional<double> celsius;                              // empty: no valid reading
+    protocol::HeaterFault fault = protocol::HeaterFault::none;  // may be one that the enumeration lacks
   };
   boost::container::static_vector<Heater, protocol::heater_count> heaters;
 };
@@ -49,9 +49,10 @@ struct LinkStatus {
   LinkState state = LinkState::absent;
   std::string device;        // path or name of what it talks to
   std::string problem;       // one sentence; empty when armed
+  bool answers = true;       // false: a legacy jacket; armed then only means that there is a wire to it
   int firmware_version = 0;  // 0: unknown
   int motor_count = 0;
-  int heater_count = 0;
+  int heater_count = 0;  // those with a sensor
   std::optional<JacketTelemetry> telemetry{};
   std::uint64_t reconnects = 0;
   std::uint64_t frames_sent = 0;
@@ -71,8 +72,9 @@ class JacketLink {
   // Sends the newest state; returns false (and forgets it) when the jacket is not armed. Never queues.
   virtual bool send(const MotorCommands& commands, Timestamp now) = 0;
 
-  // Likewise for heaters; other heaters go on as they are. False also where the jacket has none.
-  virtual bool heat(const HeaterCommands&, Timestamp) { return false; }
+  // Likewise for heaters; other heaters go on as they are. False also where the jacket has none, and where one is to
+  // get warmer than 40 C (then nothing of it is sent).
+  virtual bool heat(const HeaterCommands& commands, Timestamp now) = 0;
 
   // Everything off. Sent ahead of all else; repeated by poll() until it has left.
   virtual void stop_all(Timestamp now) = 0;

@@ -4,6 +4,10 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "link/jacket_telemetry.hpp"
 
 namespace telehug {
 namespace {
@@ -19,6 +23,15 @@ std::uint8_t duration_units(Duration duration) {
   return static_cast<std::uint8_t>(std::clamp<Duration::rep>(duration / duration_unit, 0, drive_max_units));
 }
 
+// Rounded down likewise; the small addend is for numbers such as 37.9 that binary fractions miss from below.
+std::uint16_t decidegrees(double celsius) {
+  return static_cast<std::uint16_t>(std::floor(celsius * 10 + 1e-6));
+}
+
+bool may_be_asked_for(double celsius) {
+  return celsius >= 0 && celsius * 10 <= protocol::heat_max_decidegrees;
+}  // false for NaN
+
 }  // namespace
 
 void JacketSession::connected(Timestamp now) {
@@ -31,7 +44,13 @@ void JacketSession::connected(Timestamp now) {
 void JacketSession::disconnected() {
   phase_ = Phase::closed;
   status_.state = LinkState::absent;
+  status_.telemetry.reset();
+  forget_wanted();
+}
+
+void JacketSession::forget_wanted() {
   wanted_.reset();
+  wanted_heat_ = {};
 }
 
 void JacketSession::greet(Timestamp now) {
@@ -43,8 +62,9 @@ void JacketSession::greet(Timestamp now) {
   nonce_ = static_cast<std::uint16_t>(nonce_ + 1 + (to_ns(now) & 0xFF));
   greeting_since_ = now;
   next_hello_ = now;
-  wanted_.reset();
+  forget_wanted();
   running_ = {};
+  heating_ = {};
 }
 
 void JacketSession::receive(std::span<const std::uint8_t> bytes, Timestamp now) {
@@ -59,29 +79,35 @@ void JacketSession::on_frame(const Frame& frame, Timestamp now) {
   ++status_.frames_received;
   if (const auto caps = parse_caps(frame)) {
     last_heard_ = now;
-    if (phase_ == Phase::greeting && caps->nonce == nonce_) on_caps(*caps);
+    if (phase_ == Phase::greeting && caps->nonce == nonce_) on_caps(*caps, now);
   } else if (frame.type == FrameType::ack && frame.payload.size() == 1) {
     last_heard_ = now;
     if (stop_ == Stop::unacknowledged && frame.sequence == stop_sequence_) stop_ = Stop::none;
   } else if (frame.type == FrameType::nack && frame.payload.size() == 2) {
     last_heard_ = now;
     on_nack(frame, now);
-  } else if (parse_telemetry(frame)) {
+  } else if (auto telemetry = read_telemetry(frame, temperatures_, now)) {
     last_heard_ = now;
+    status_.telemetry = *telemetry;
   } else {
     ++unexpected_frames_;
   }
 }
 
-void JacketSession::on_caps(const protocol::Caps& caps) {
+void JacketSession::on_caps(const protocol::Caps& caps, Timestamp now) {
   status_.firmware_version = caps.firmware;
-  if (caps.protocol != protocol::version || caps.motors == 0 || caps.motors > protocol::motor_count) {
-    return refuse(
-        fmt::format("the jacket answers with protocol {} and {} motors, which telehug does not know: update "
-                    "its firmware",
-                    caps.protocol, caps.motors));
+  if (caps.protocol != protocol::version || caps.motors == 0 || caps.motors > protocol::motor_count ||
+      caps.heaters > protocol::heater_count || caps.temperatures > protocol::heater_count) {
+    return refuse(fmt::format(
+        "the jacket answers with protocol {}, {} motors, {} heaters and {} temperatures, which telehug does "
+        "not know: update its firmware",
+        caps.protocol, caps.motors, caps.heaters, caps.temperatures));
   }
   status_.motor_count = caps.motors;
+  status_.heater_count = std::min(caps.heaters, caps.temperatures);
+  temperatures_ = caps.temperatures;
+  status_.telemetry.reset();
+  next_status_ = now;
   status_.problem.clear();
   status_.state = LinkState::armed;
   phase_ = Phase::armed;
@@ -125,8 +151,22 @@ bool JacketSession::send(const MotorCommands& commands, Timestamp now) {
   return true;
 }
 
+bool JacketSession::heat(const HeaterCommands& commands, Timestamp now) {
+  if (phase_ != Phase::armed || status_.heater_count == 0) return false;
+  for (const HeaterCommand& command : commands)
+    if (!may_be_asked_for(command.celsius)) return false;
+  for (const HeaterCommand& command : commands) {
+    if (command.heater >= status_.heater_count) continue;
+    const bool warms = decidegrees(command.celsius) > 0 && duration_units(command.duration) > 0;
+    wanted_heat_.at(command.heater) =
+        warms ? Heat{decidegrees(command.celsius), now + command.duration} : Heat{.decidegrees = 0, .end = now};
+    if (warms && stop_ == Stop::unacknowledged) stop_ = Stop::none;  // as for motors
+  }
+  return true;
+}
+
 void JacketSession::stop_all() {
-  wanted_.reset();
+  forget_wanted();
   if (phase_ != Phase::closed) stop_ = Stop::wanted;
 }
 
@@ -142,9 +182,10 @@ EncodedFrame JacketSession::next_frame(Timestamp now, bool has_backlog) {
     return now >= next_hello_ ? make_hello(now) : EncodedFrame{};
   }
   if (stop_ == Stop::unacknowledged && now - stop_sent_ >= stop_repeat) return make_stop(now);
-  if (wanted_ && may_send_set(now)) {
-    EncodedFrame frame = make_set(now);
-    if (!frame.empty()) return frame;
+  if (EncodedFrame frame = make_drive(now); !frame.empty()) return frame;
+  if (now >= next_status_) {
+    next_status_ = now + status_interval;
+    return make_frame(FrameType::status, {}, now);
   }
   if (now - last_sent_ >= keep_interval) return make_frame(FrameType::keep, {}, now);
   return {};
@@ -164,6 +205,7 @@ EncodedFrame JacketSession::make_stop(Timestamp now) {
   stop_sequence_ = sequence_;
   stop_sent_ = now;
   running_ = {};
+  heating_ = {};
   return frame;
 }
 
@@ -175,14 +217,43 @@ EncodedFrame JacketSession::make_hello(Timestamp now) {
                     now);
 }
 
-// A state that turns something down or off goes at once; one that only drives waits for its turn.
-bool JacketSession::may_send_set(Timestamp now) const {
-  if (now - last_set_ >= set_interval) return true;
+bool JacketSession::wants_less_drive(Timestamp now) const {
+  if (!wanted_) return false;
   for (std::size_t channel = 0; channel < running_.size(); ++channel) {
     const bool runs = running_.at(channel).end > now;
     if (runs && wanted_->at(channel).intensity < running_.at(channel).intensity) return true;
   }
   return false;
+}
+
+bool JacketSession::wants_less_heat(Timestamp now) const {
+  for (std::size_t heater = 0; heater < heating_.size(); ++heater) {
+    const auto& wanted = wanted_heat_.at(heater);
+    const bool runs = heating_.at(heater).end > now;
+    if (runs && wanted && wanted->decidegrees < heating_.at(heater).decidegrees) return true;
+  }
+  return false;
+}
+
+bool JacketSession::wants_heat() const {
+  return std::ranges::any_of(wanted_heat_, [](const auto& heat) { return heat.has_value(); });
+}
+
+bool JacketSession::heats(Timestamp now) const {
+  return std::ranges::any_of(heating_, [now](const Heat& heat) { return heat.end > now; });
+}
+
+// What turns something down or off goes at once; what only drives waits for its turn.
+EncodedFrame JacketSession::make_drive(Timestamp now) {
+  const bool lowers_drive = wants_less_drive(now) && pace_.may_lower(now);
+  const bool lowers_heat = wants_less_heat(now) && pace_.may_lower(now);
+  const bool turn = pace_.may_drive(now);
+  const auto set_first = [&] { return lowers_drive || (!lowers_heat && !(heat_is_next_ && wants_heat())); };
+  if (wanted_ && (lowers_drive || turn) && set_first()) {
+    if (EncodedFrame frame = make_set(now); !frame.empty()) return frame;
+  }
+  if (wants_heat() && (lowers_heat || turn)) return make_heat(now);
+  return {};
 }
 
 EncodedFrame JacketSession::make_set(Timestamp now) {
@@ -201,8 +272,29 @@ EncodedFrame JacketSession::make_set(Timestamp now) {
   }
   wanted_.reset();
   if (payload.empty()) return {};
-  last_set_ = now;
-  return drives_any ? make_frame(FrameType::set, payload, now) : make_stop(now);
+  if (!drives_any && !heats(now) && !wants_heat()) return make_stop(now);
+  pace_.sent(now);
+  heat_is_next_ = true;
+  return make_frame(FrameType::set, payload, now);
+}
+
+EncodedFrame JacketSession::make_heat(Timestamp now) {
+  FramePayload payload;
+  for (std::size_t heater = 0; heater < heating_.size(); ++heater) {
+    const auto wanted = std::exchange(wanted_heat_.at(heater), std::nullopt);
+    if (!wanted) continue;
+    Heat& heating = heating_.at(heater);
+    const std::uint8_t units = duration_units(wanted->end - now);
+    if (units == 0 && heating.end <= now) continue;
+    const std::uint16_t target = units == 0 ? std::uint16_t{0} : wanted->decidegrees;
+    for (const int byte : {static_cast<int>(heater), target & 0xFF, target >> 8, static_cast<int>(units)})
+      payload.push_back(static_cast<std::uint8_t>(byte));
+    heating = {target, now + units * duration_unit};
+  }
+  if (payload.empty()) return {};
+  pace_.sent(now);
+  heat_is_next_ = false;
+  return make_frame(FrameType::heat, payload, now);
 }
 
 }  // namespace telehug

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The host's side of the conversation with the microcontroller, without any wire: bytes and time in, frames out.
+// The host's side of the protocol that protocol.hpp describes.
 #pragma once
 
 #include <array>
@@ -10,6 +10,8 @@
 #include <string>
 
 #include "common/clock.hpp"
+#include "link/conversation.hpp"
+#include "link/drive_pace.hpp"
 #include "link/frame_codec.hpp"
 #include "link/jacket_link.hpp"
 
@@ -17,32 +19,29 @@ namespace telehug {
 
 // Says hello until the jacket answers, keeps it alive, carries the newest state and nothing older, and starts over when
 // the jacket falls silent or has disarmed itself.
-class JacketSession {
+class JacketSession final : public Conversation {
  public:
   static constexpr Duration hello_interval = 200ms;
   static constexpr Duration hello_patience = 3s;  // then status().problem says that nobody answers; it goes on trying
   static constexpr Duration keep_interval = 100ms;
   static constexpr Duration silence_max = 1s;
-  static constexpr Duration set_interval = 20ms;  // for states that only drive more or longer
-  static constexpr Duration stop_repeat = 50ms;   // until the jacket acknowledges
+  static constexpr Duration status_interval = 500ms;
+  static constexpr Duration stop_repeat = 50ms;  // until the jacket acknowledges
 
-  // A wire stands (or has gone). Nothing has been said on it yet; the first frame turns everything off.
-  void connected(Timestamp now);
-  void disconnected();
+  // The first frame turns everything off.
+  void connected(Timestamp now) override;
+  void disconnected() override;
 
-  void receive(std::span<const std::uint8_t> bytes, Timestamp now);
+  void receive(std::span<const std::uint8_t> bytes, Timestamp now) override;
 
-  // As JacketLink.
-  bool send(const MotorCommands& commands, Timestamp now);
-  void stop_all();
+  bool send(const MotorCommands& commands, Timestamp now) override;
+  bool heat(const HeaterCommands& commands, Timestamp now) override;
+  void stop_all() override;
 
-  // The frame to write now; empty if there is none. Each one returned counts as sent, so write it whole. While the wire
-  // has a backlog only a stop is returned.
-  [[nodiscard]] EncodedFrame next_frame(Timestamp now, bool has_backlog);
+  [[nodiscard]] EncodedFrame next_frame(Timestamp now, bool has_backlog) override;
 
   [[nodiscard]] bool armed() const { return phase_ == Phase::armed; }
-  // Counters, versions and problem; the owner of the wire adds `device`.
-  [[nodiscard]] const LinkStatus& status() const { return status_; }
+  [[nodiscard]] const LinkStatus& status() const override { return status_; }
 
  private:
   enum class Phase { closed, greeting, armed };
@@ -52,16 +51,26 @@ class JacketSession {
     Timestamp end;
   };
   using Drives = std::array<Drive, protocol::motor_count>;
+  struct Heat {
+    std::uint16_t decidegrees = 0;  // 0: off
+    Timestamp end;
+  };
 
   void greet(Timestamp now);
   void on_frame(const Frame& frame, Timestamp now);
-  void on_caps(const protocol::Caps& caps);
+  void on_caps(const protocol::Caps& caps, Timestamp now);
   void on_nack(const Frame& frame, Timestamp now);
   [[nodiscard]] EncodedFrame make_frame(protocol::FrameType type, const FramePayload& payload, Timestamp now);
   [[nodiscard]] EncodedFrame make_stop(Timestamp now);
   [[nodiscard]] EncodedFrame make_hello(Timestamp now);
+  [[nodiscard]] EncodedFrame make_drive(Timestamp now);
   [[nodiscard]] EncodedFrame make_set(Timestamp now);
-  [[nodiscard]] bool may_send_set(Timestamp now) const;
+  [[nodiscard]] EncodedFrame make_heat(Timestamp now);
+  [[nodiscard]] bool wants_less_drive(Timestamp now) const;
+  [[nodiscard]] bool wants_less_heat(Timestamp now) const;
+  [[nodiscard]] bool wants_heat() const;
+  [[nodiscard]] bool heats(Timestamp now) const;
+  void forget_wanted();
   void refuse(std::string problem);
 
   Phase phase_ = Phase::closed;
@@ -83,9 +92,16 @@ class JacketSession {
   std::uint8_t stop_sequence_ = 0;
   Timestamp stop_sent_;
 
-  std::optional<Drives> wanted_;  // newest state that has not left yet
-  Drives running_{};              // what the jacket was told, and until when
-  Timestamp last_set_;
+  // What the jacket was told and until when, and the newest that has not left yet.
+  Drives running_{};
+  std::optional<Drives> wanted_;
+  std::array<Heat, protocol::heater_count> heating_{};
+  std::array<std::optional<Heat>, protocol::heater_count> wanted_heat_{};
+  DrivePace pace_;
+  bool heat_is_next_ = false;  // where motors and heaters wait for the same turn
+
+  std::size_t temperatures_ = 0;  // that the jacket announced
+  Timestamp next_status_;
 };
 
 }  // namespace telehug

@@ -2,33 +2,58 @@
 #include "link/make_link.hpp"
 
 #include <exception>
+#include <optional>
 #include <string>
 
+#include "link/jacket_session.hpp"
+#include "link/legacy_session.hpp"
 #include "link/recording_link.hpp"
+#include "link/wire_link.hpp"
+#include "wire/rfcomm_opener.hpp"
 
 namespace telehug {
 namespace {
 
-constexpr std::string_view serial_prefix = "serial:";
-constexpr std::string_view record_prefix = "record:";
+// What follows the scheme, if it is this one and anything follows.
+std::optional<std::string> after(std::string_view scheme, std::string_view spec) {
+  if (!spec.starts_with(scheme) || spec.size() == scheme.size()) return std::nullopt;
+  return std::string(spec.substr(scheme.size()));
+}
+
+std::unique_ptr<Conversation> make_conversation(LinkProtocol protocol) {
+  if (protocol == LinkProtocol::legacy) return std::make_unique<LegacySession>();
+  return std::make_unique<JacketSession>();
+}
+
+std::unique_ptr<JacketLink> make_wire_link(std::unique_ptr<WireOpener> opener, LinkProtocol protocol) {
+  return std::make_unique<WireLink>(std::move(opener), make_conversation(protocol));
+}
 
 }  // namespace
 
 Result<std::unique_ptr<JacketLink>> make_link(std::string_view spec, const LinkOptions& options) {
   try {
-    if (spec == "simulated") return std::unique_ptr<JacketLink>(std::make_unique<SimulatedLink>(options.simulator));
-    if (spec.starts_with(serial_prefix) && spec.size() > serial_prefix.size()) {
+    if (spec == "simulated") {
       return std::unique_ptr<JacketLink>(
-          std::make_unique<SerialLink>(std::string(spec.substr(serial_prefix.size())), options.baud));
+          std::make_unique<SimulatedLink>(options.simulator, make_conversation(options.protocol)));
     }
-    if (spec.starts_with(record_prefix) && spec.size() > record_prefix.size()) {
-      return std::unique_ptr<JacketLink>(std::make_unique<RecordingLink>(spec.substr(record_prefix.size())));
+    if (auto path = after("serial:", spec)) {
+      return make_wire_link(std::make_unique<SerialOpener>(*std::move(path), options.baud), options.protocol);
+    }
+    if (const auto device = after("rfcomm:", spec)) {
+      if (const auto peer = parse_rfcomm_peer(*device)) {
+        return make_wire_link(std::make_unique<RfcommOpener>(*peer), options.protocol);
+      }
+    }
+    if (const auto file = after("record:", spec)) {
+      return std::unique_ptr<JacketLink>(std::make_unique<RecordingLink>(*file));
     }
   } catch (const std::exception& problem) {
     return Error{problem.what()};
   }
   return Error{"\"" + std::string(spec) +
-               "\" names no jacket: write serial:PATH, simulated or record:FILE (for example serial:/dev/ttyUSB0)"};
+               "\" names no jacket: write serial:PATH, rfcomm:ADDRESS, simulated or record:FILE (for example "
+               "serial:/dev/serial/by-id/..., serial:auto or rfcomm:00:11:22:33:44:55)"};
 }
 
 }  // namespace telehug

@@ -6,18 +6,26 @@
 
 #include "common/result.hpp"
 #include "link/jacket_link.hpp"
-#include "link/serial_link.hpp"
 #include "link/simulated_link.hpp"
+#include "wire/serial_port.hpp"
 
 namespace telehug {
 
+// What is said on the wire.
+enum class LinkProtocol {
+  telehug,  // protocol.hpp
+  legacy,   // legacy_session.hpp
+};
+
 struct LinkOptions {
   unsigned baud = default_baud;
+  LinkProtocol protocol = LinkProtocol::telehug;
   SimulatorOptions simulator;
 };
 
-// The link that `spec` names: `serial:PATH` (a terminal device), `simulated` (the firmware in a simulated
-// microcontroller) or `record:FILE` (no jacket, the commands go to a CSV file).
+// The link that `spec` names: `serial:PATH` (a terminal device; `serial:auto`: the only one in /dev/serial/by-id),
+// `rfcomm:AA:BB:CC:DD:EE:FF` or `rfcomm:AA:BB:CC:DD:EE:FF/CHANNEL` (Bluetooth), `simulated` (the firmware in a
+// simulated microcontroller) or `record:FILE` (no jacket, the commands go to a CSV file).
 [[nodiscard]] Result<std::unique_ptr<JacketLink>> make_link(std::string_view spec, const LinkOptions& options = {});
 
 }  // namespace telehug

@@ -19,6 +19,7 @@ RecordingLink::RecordingLink(const std::filesystem::path& file) : file_(std::fop
   status_.state = LinkState::armed;
   status_.device = file.string();
   status_.motor_count = protocol::motor_count;
+  status_.heater_count = protocol::heater_count;
   write("monotonic_ns,command,channel,intensity,duration_ms\n");
 }
 
@@ -28,6 +29,16 @@ bool RecordingLink::send(const MotorCommands& commands, Timestamp now) {
   for (const MotorCommand& command : commands) {
     rows +=
         fmt::format("{},set,{},{},{:.3f}\n", to_ns(now), command.channel, command.intensity, to_ms(command.duration));
+  }
+  write(rows);
+  return status_.state == LinkState::armed;
+}
+
+bool RecordingLink::heat(const HeaterCommands& commands, Timestamp now) {
+  std::string rows;
+  for (const HeaterCommand& command : commands) {
+    rows +=
+        fmt::format("{},heat,{},{:.1f},{:.3f}\n", to_ns(now), command.heater, command.celsius, to_ms(command.duration));
   }
   write(rows);
   return status_.state == LinkState::armed;

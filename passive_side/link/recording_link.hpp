@@ -11,7 +11,8 @@
 namespace telehug {
 
 // No jacket at all: writes what it would be told to a CSV file, `monotonic_ns,command,channel,intensity,duration_ms`:
-// one row `set` for each motor of a state, `off` for a state without any, `stop` for a stop.
+// one row `set` for each motor of a state, `off` for a state without any, `stop` for a stop, and `heat` for each
+// heater, with its number and degrees Celsius in the columns of channel and intensity.
 class RecordingLink final : public JacketLink {
  public:
   // Throws std::runtime_error if the file can't be written.
@@ -19,6 +20,7 @@ class RecordingLink final : public JacketLink {
 
   void poll(Timestamp) override {}
   bool send(const MotorCommands& commands, Timestamp now) override;
+  bool heat(const HeaterCommands& commands, Timestamp now) override;
   void stop_all(Timestamp now) override;
   [[nodiscard]] const LinkStatus& status() const override { return status_; }
 

@@ -11,6 +11,8 @@
 #include <stdexcept>
 #include <vector>
 
+#include "wire/serial_port.hpp"
+
 namespace telehug {
 namespace {
 
@@ -67,8 +69,9 @@ struct SpawnSettings {
 
 }  // namespace
 
-SimulatedLink::SimulatedLink(SimulatorOptions options)
-    : options_(complete(std::move(options), private_folder_)), serial_(options_.link) {
+SimulatedLink::SimulatedLink(SimulatorOptions options, std::unique_ptr<Conversation> conversation)
+    : options_(complete(std::move(options), private_folder_)),
+      wire_(std::make_unique<SerialOpener>(options_.link, default_baud), std::move(conversation)) {
   start();
 }
 
@@ -87,7 +90,7 @@ void SimulatedLink::poll(Timestamp now) {
     start_at_ = now + restart_pause;
     start();
   }
-  serial_.poll(now);
+  wire_.poll(now);
 }
 
 void SimulatedLink::start() {

@@ -7,7 +7,7 @@
 #include <string>
 
 #include "link/jacket_link.hpp"
-#include "link/serial_link.hpp"
+#include "link/wire_link.hpp"
 
 namespace telehug {
 
@@ -26,15 +26,16 @@ class SimulatedLink final : public JacketLink {
   static constexpr Duration restart_pause = 1s;
 
   // Throws std::runtime_error if there is no such program.
-  explicit SimulatedLink(SimulatorOptions options);
+  SimulatedLink(SimulatorOptions options, std::unique_ptr<Conversation> conversation);
   ~SimulatedLink() override;
   SimulatedLink(const SimulatedLink&) = delete;
   SimulatedLink& operator=(const SimulatedLink&) = delete;
 
   void poll(Timestamp now) override;
-  bool send(const MotorCommands& commands, Timestamp now) override { return serial_.send(commands, now); }
-  void stop_all(Timestamp now) override { serial_.stop_all(now); }
-  [[nodiscard]] const LinkStatus& status() const override { return serial_.status(); }
+  bool send(const MotorCommands& commands, Timestamp now) override { return wire_.send(commands, now); }
+  bool heat(const HeaterCommands& commands, Timestamp now) override { return wire_.heat(commands, now); }
+  void stop_all(Timestamp now) override { wire_.stop_all(now); }
+  [[nodiscard]] const LinkStatus& status() const override { return wire_.status(); }
 
   // Process id of the simulator, 0 while there is none.
   [[nodiscard]] pid_t simulator() const { return child_; }
@@ -45,7 +46,7 @@ class SimulatedLink final : public JacketLink {
 
   std::filesystem::path private_folder_;  // before options_, which may name a place in it
   SimulatorOptions options_;
-  SerialLink serial_;
+  WireLink wire_;
   pid_t child_ = 0;
   Timestamp start_at_;
 };

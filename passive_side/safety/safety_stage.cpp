@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "safety/safety_stage.hpp"
 
-#include <algorithm>
-#include <cmath>
 #include <stdexcept>
 #include <utility>
 
@@ -10,60 +8,32 @@ namespace telehug {
 namespace {
 
 constexpr Duration most_longest_drive = 2s;
-// Commands are renewed this often: a frame lost on the wire is mended soon, and 20 frames/s leave room on any wire.
-constexpr Duration renewal_interval = 50ms;
-// ... and at the latest this long before one runs out: more than two ticks.
-constexpr Duration renewal_margin = 45ms;
 
-constexpr std::uint64_t one_if(bool condition) {
-  return condition ? 1 : 0;
-}
+constexpr Timestamp never_heard = Timestamp::min();
 
-bool unit_interval(double value) {
-  return value >= 0 && value <= 1;
-}  // false for NaN
-
-void check(const SafetyLimits& limits) {
-  if (!unit_interval(limits.max_strength)) throw std::invalid_argument("safety: max_strength must be 0..1");
+const SafetyLimits& checked(const SafetyLimits& limits) {
+  // Written so that NaN fails.
+  if (!(limits.max_strength >= 0 && limits.max_strength <= 1)) {
+    throw std::invalid_argument("safety: max_strength must be 0..1");
+  }
+  if (!(limits.max_celsius >= 0 && limits.max_celsius <= most_celsius)) {
+    throw std::invalid_argument("safety: max_celsius must be 0..40");
+  }
   if (limits.longest_drive <= 0ms || limits.longest_drive > most_longest_drive) {
     throw std::invalid_argument("safety: longest_drive must be above 0 and at most 2 s");
   }
   if (limits.heartbeat_timeout <= 0ms || limits.heartbeat_timeout > longest_command) {
     throw std::invalid_argument("safety: heartbeat_timeout must be above 0 and at most 250 ms");
   }
-}
-
-void check(const JacketProfile& profile) {
-  if (profile.actuators.empty() || profile.actuators.size() > motor_channels) {
-    throw std::invalid_argument("safety: a jacket has 1..16 motors");
-  }
-  for (const Actuator& actuator : profile.actuators) {
-    if (actuator.channel >= motor_channels) throw std::invalid_argument("safety: a channel must be 0..15");
-    if (!unit_interval(actuator.max_strength) || !unit_interval(actuator.min_strength)) {
-      throw std::invalid_argument("safety: strengths of an actuator must be 0..1");
-    }
-  }
+  return limits;
 }
 
 }  // namespace
 
-FeltOutcome SafetyVerdict::outcome_at(std::span<const std::uint8_t> actuators) const noexcept {
-  if (outcome != FeltOutcome::driven && outcome != FeltOutcome::limited) return outcome;
-  const bool something_left = std::ranges::any_of(
-      actuators, [this](std::uint8_t id) { return std::ranges::find(refused, id) == refused.end(); });
-  return something_left ? FeltOutcome::driven : FeltOutcome::limited;
-}
-
 SafetyStage::SafetyStage(std::unique_ptr<JacketLink> link, const JacketProfile& profile, SafetyLimits limits)
-    : link_(std::move(link)), limits_(limits) {
+    : link_(std::move(link)), limits_(checked(limits)), outputs_(profile, limits_, counters_) {
   if (!link_) throw std::invalid_argument("safety: there is no link");
-  check(limits_);
-  check(profile);
-  for (const Actuator& actuator : profile.actuators) {
-    if (!actuator.enabled || actuator.kind != ActuatorKind::motor) continue;
-    const double most = std::min(actuator.max_strength, limits_.max_strength);
-    motors_.push_back({actuator.id, actuator.channel, {actuator.min_strength, most}});
-  }
+  vouched_.fill(never_heard);
 }
 
 SafetyStage::~SafetyStage() {
@@ -73,61 +43,49 @@ SafetyStage::~SafetyStage() {
 
 SafetyVerdict SafetyStage::apply(SenderNumber sender, const Drives& drives, Timestamp now) {
   follow_clock(now);
+  if (const auto refused = refuse_all(sender, now)) return *refused;
+  outputs_.expire(now);
+  SafetyVerdict verdict;
+  Drives accepted;
+  for (const Drive& wanted : drives) {
+    const Outputs::Asked asked = outputs_.ask(sender, wanted, permission_.muted_actuators, now);
+    if (asked == Outputs::Asked::accepted) accepted.push_back(wanted);
+    if (asked == Outputs::Asked::muted) verdict.muted.push_back(wanted.actuator);
+    if (asked == Outputs::Asked::refused || asked == Outputs::Asked::muted) verdict.refused.push_back(wanted.actuator);
+  }
+  if (!drives.empty() && !send(now)) return refuse_without_jacket(now);
+  // Of what was accepted duty, current or a heater's supervision may have left nothing.
+  for (const Drive& wanted : accepted)
+    if (!outputs_.runs(wanted.actuator)) verdict.refused.push_back(wanted.actuator);
+  if (!drives.empty() && verdict.refused.size() == drives.size()) {
+    verdict.outcome = verdict.muted.size() == drives.size() ? FeltOutcome::muted : FeltOutcome::limited;
+  }
+  return verdict;
+}
+
+// The wearer's will first, then whoever asks, then the jacket.
+std::optional<SafetyVerdict> SafetyStage::refuse_all(SenderNumber sender, Timestamp now) {
   if (stopped()) {
     ++counters_.refused_stopped;
-    return {FeltOutcome::stopped, {}};
+    return SafetyVerdict{FeltOutcome::stopped, {}, {}};
+  }
+  if (permission_.refusal) {
+    ++(permission_.refusal == FeltOutcome::paused ? counters_.refused_paused : counters_.refused_quiet_hours);
+    return SafetyVerdict{*permission_.refusal, {}, {}};
   }
   if (!lives(sender, now)) {
     ++counters_.refused_no_sender;
     silence(sender, counters_.off_heartbeat_lost, now);
-    return {FeltOutcome::stale, {}};
+    return SafetyVerdict{FeltOutcome::stale, {}, {}};
   }
   if (!ready_ || !armed()) return refuse_without_jacket(now);
-  expire(now);
-  SafetyVerdict verdict;
-  for (const Drive& wanted : drives) {
-    if (!drive(sender, wanted, now)) verdict.refused.push_back(wanted.actuator);
-  }
-  if (!drives.empty() && !send(now)) return refuse_without_jacket(now);
-  if (!drives.empty() && verdict.refused.size() == drives.size()) verdict.outcome = FeltOutcome::limited;
-  return verdict;
+  return std::nullopt;
 }
 
 SafetyVerdict SafetyStage::refuse_without_jacket(Timestamp now) {
   ++counters_.refused_no_jacket;
   turn_off(counters_.off_link_lost, now);
-  return {FeltOutcome::jacket_absent, {}};
-}
-
-// False if nothing may come of a drive that asks for something. Whatever is wrong with it, its sender asks nothing of
-// the motor then.
-bool SafetyStage::drive(SenderNumber sender, const Drive& wanted, Timestamp now) {
-  Motor* motor = find(wanted.actuator);
-  if (motor == nullptr) {
-    ++counters_.refused_unknown_actuator;
-    return false;
-  }
-  const bool was_on = motor->runs();
-  Share& share = motor->shares[sender];
-  share.intensity = 0;
-  if (!std::isfinite(wanted.strength)) {
-    ++counters_.refused_not_finite;
-    return false;
-  }
-  if (wanted.strength <= 0 || wanted.end <= now) {
-    counters_.off_ended += one_if(was_on && !motor->runs());
-    return true;
-  }
-  share.intensity = motor->scale.intensity(wanted.strength);
-  if (share.intensity == 0) {
-    ++counters_.refused_by_limit;
-    return false;
-  }
-  share.end = std::min(wanted.end, now + limits_.longest_drive);
-  ++counters_.drives_accepted;
-  counters_.clamped_strength += one_if(wanted.strength > 1);
-  counters_.clamped_end += one_if(share.end < wanted.end);
-  return true;
+  return {FeltOutcome::jacket_absent, {}, {}};
 }
 
 void SafetyStage::tick(Timestamp now) {
@@ -138,7 +96,9 @@ void SafetyStage::tick(Timestamp now) {
   for (SenderNumber sender = 0; sender < max_senders; ++sender) {
     if (!lives(sender, now)) silence(sender, counters_.off_heartbeat_lost, now);
   }
-  if ((expire(now) || renewal_due(now)) && !send(now)) turn_off(counters_.off_link_lost, now);
+  const bool ended = outputs_.expire(now);
+  const bool due = ended || outputs_.renewal_due(vouched_, link_->status().telemetry, sent_, now);
+  if (due && !send(now)) turn_off(counters_.off_link_lost, now);
 }
 
 void SafetyStage::on_heartbeat(SenderNumber sender, Timestamp now) {
@@ -146,13 +106,20 @@ void SafetyStage::on_heartbeat(SenderNumber sender, Timestamp now) {
   if (sender >= max_senders) return;
   // What ran until now was vouched for by the last heartbeat only.
   if (!lives(sender, now)) silence(sender, counters_.off_heartbeat_lost, now);
-  heartbeats_[sender] = now;
+  vouched_[sender] = now + limits_.heartbeat_timeout;
+}
+
+void SafetyStage::permit(const Permission& permission, Timestamp now) {
+  follow_clock(now);
+  if (permission == permission_) return;
+  permission_ = permission;
+  turn_off(counters_.off_consent, now);
 }
 
 void SafetyStage::stop(std::string reason, Timestamp now) {
   follow_clock(now);
   if (!stopped()) stop_reason_ = std::move(reason);
-  counters_.off_stop += forget_drives();
+  counters_.off_stop += outputs_.forget();
   link_->stop_all(now);
 }
 
@@ -167,38 +134,7 @@ void SafetyStage::all_off(SenderNumber sender, Timestamp now) {
 
 void SafetyStage::forget(SenderNumber sender, Timestamp now) {
   all_off(sender, now);
-  if (sender < max_senders) heartbeats_[sender].reset();
-}
-
-boost::container::static_vector<std::uint8_t, max_actuators> SafetyStage::running() const {
-  boost::container::static_vector<std::uint8_t, max_actuators> ids;
-  for (const Motor& motor : motors_) {
-    if (motor.runs()) ids.push_back(motor.id);
-  }
-  return ids;
-}
-
-bool SafetyStage::Motor::runs() const noexcept {
-  return std::ranges::any_of(shares, [](const Share& share) { return share.intensity > 0; });
-}
-
-// What the motor is to do now: the strongest wish, until its end or as long as its own sender's heartbeat vouches for.
-SafetyStage::Share SafetyStage::strongest(const Motor& motor, Timestamp now) const {
-  Share strongest;
-  for (std::size_t sender = 0; sender < max_senders; ++sender) {
-    const Share& share = motor.shares[sender];
-    const Timestamp end = std::min({share.end, vouched_until(sender), now + longest_command});
-    if (share.intensity == 0 || end <= now) continue;
-    const bool stronger = share.intensity > strongest.intensity;
-    const bool longer = share.intensity == strongest.intensity && end > strongest.end;
-    if (stronger || longer) strongest = {share.intensity, end};
-  }
-  return strongest;
-}
-
-SafetyStage::Motor* SafetyStage::find(std::uint8_t id) {
-  const auto found = std::ranges::find(motors_, id, &Motor::id);
-  return found == motors_.end() ? nullptr : &*found;
+  if (sender < max_senders) vouched_[sender] = never_heard;
 }
 
 // A clock that goes backwards would lengthen every drive by the jump: everything ends, and every sender has to be heard
@@ -206,12 +142,12 @@ SafetyStage::Motor* SafetyStage::find(std::uint8_t id) {
 void SafetyStage::follow_clock(Timestamp now) {
   if (now < now_) {
     turn_off(counters_.off_clock_jumped, now);
-    heartbeats_.fill(std::nullopt);
-    for (Motor& motor : motors_)
-      motor.silent_from = now;
+    vouched_.fill(never_heard);
+    outputs_.forget_time(now);
     sent_ = now;
   }
   now_ = now;
+  outputs_.pass(now);
 }
 
 // A jacket that has just answered gets an all-off before anything else; what ran before the break is forgotten.
@@ -220,25 +156,9 @@ void SafetyStage::follow_link(Timestamp now) {
   if (same) return;
   reconnects_ = link_->status().reconnects;
   ready_ = armed();
-  counters_.off_link_lost += forget_drives();
-  for (Motor& motor : motors_)
-    motor.silent_from = now;
+  counters_.off_link_lost += outputs_.forget();
+  outputs_.silent(now);
   link_->stop_all(now);
-}
-
-// Ends what has come to its end; true if something has.
-bool SafetyStage::expire(Timestamp now) {
-  bool something_ended = false;
-  for (Motor& motor : motors_) {
-    const bool ran = motor.runs();
-    for (Share& share : motor.shares) {
-      if (share.intensity == 0 || share.end > now) continue;
-      share.intensity = 0;
-      something_ended = true;
-    }
-    counters_.off_expired += one_if(ran && !motor.runs());
-  }
-  return something_ended;
 }
 
 bool SafetyStage::armed() const {
@@ -246,70 +166,32 @@ bool SafetyStage::armed() const {
 }
 
 bool SafetyStage::lives(SenderNumber sender, Timestamp now) const {
-  return sender < max_senders && now < vouched_until(sender);
-}
-
-Timestamp SafetyStage::vouched_until(std::size_t sender) const {
-  return heartbeats_[sender] ? *heartbeats_[sender] + limits_.heartbeat_timeout : Timestamp::min();
-}
-
-bool SafetyStage::renewal_due(Timestamp now) const {
-  const bool interval_over = now - sent_ >= renewal_interval;
-  return std::ranges::any_of(motors_, [&](const Motor& motor) {
-    if (!motor.runs()) return interval_over && motor.silent_from > now;
-    const bool runs_out = motor.silent_from - now <= renewal_margin;
-    return interval_over || (runs_out && strongest(motor, now).end > motor.silent_from);
-  });
+  return sender < max_senders && now < vouched_[sender];
 }
 
 bool SafetyStage::send(Timestamp now) {
-  MotorCommands commands;
-  for (Motor& motor : motors_) {
-    if (const Share share = strongest(motor, now); share.intensity > 0) {
-      commands.push_back({motor.channel, share.intensity, share.end - now});
-      motor.silent_from = std::max(motor.silent_from, share.end);
-    } else if (motor.silent_from > now) {
-      commands.push_back({motor.channel, 0, {}});
-    }
-  }
   sent_ = now;
-  return commands.empty() || link_->send(commands, now);
-}
-
-std::uint64_t SafetyStage::forget_drives() {
-  std::uint64_t ran = 0;
-  for (Motor& motor : motors_) {
-    ran += one_if(motor.runs());
-    motor.shares.fill({});
-  }
-  return ran;
-}
-
-// True if it had asked for anything. `counter`: of the motors that are off by that.
-bool SafetyStage::forget_drives_of(std::size_t sender, std::uint64_t& counter) {
-  bool asked = false;
-  for (Motor& motor : motors_) {
-    if (std::exchange(motor.shares[sender], {}).intensity == 0) continue;
-    asked = true;
-    counter += one_if(!motor.runs());
-  }
-  return asked;
+  const MotorCommands motors = outputs_.motor_commands(vouched_, now);
+  if (!motors.empty() && !link_->send(motors, now)) return false;
+  const HeaterCommands heaters = outputs_.heater_commands(vouched_, link_->status().telemetry, now);
+  if (!heaters.empty() && !link_->heat(heaters, now)) outputs_.forget_heaters();
+  return true;
 }
 
 // Everything of one sender off; says so to the jacket if it asked for anything. What others ask for goes on.
 void SafetyStage::silence(SenderNumber sender, std::uint64_t& counter, Timestamp now) {
-  if (sender >= max_senders || !forget_drives_of(sender, counter)) return;
-  const bool others = std::ranges::any_of(motors_, [](const Motor& motor) { return motor.runs(); });
-  if (!others) {
+  if (sender >= max_senders || !outputs_.forget(sender, counter)) return;
+  if (!outputs_.asked()) {
+    outputs_.forget();
     link_->stop_all(now);
   } else if (!send(now)) {
     turn_off(counters_.off_link_lost, now);
   }
 }
 
-// Everything off because of a fault; says so to the jacket if a motor was on.
+// Everything off because of a fault or the wearer's will; says so to the jacket if anything was on.
 void SafetyStage::turn_off(std::uint64_t& counter, Timestamp now) {
-  const std::uint64_t ran = forget_drives();
+  const std::uint64_t ran = outputs_.forget();
   counter += ran;
   if (ran > 0) link_->stop_all(now);
 }

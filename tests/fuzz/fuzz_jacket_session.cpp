@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// A jacket that answers anything at any time. What is written to it stays in order: frames of the protocol, no motor
-// that it did not announce, none for longer than 250 ms, and nothing that drives before it answered a greeting.
+// A jacket that answers anything at any time. What is written to it stays in order: frames of the protocol, no motor or
+// heater that it did not announce, none for longer than 250 ms or above 40 C, and nothing that drives before it
+// answered a greeting. What it tells of itself is within what a jacket can be.
 #include <algorithm>
 #include <cstdlib>
 #include <vector>
@@ -19,7 +20,7 @@ void require(bool holds) {
   if (!holds) std::abort();
 }
 
-class Conversation {
+class FuzzedTalk {
  public:
   void step(Bytes& bytes) {
     switch (bytes.byte() % 8) {
@@ -41,11 +42,15 @@ class Conversation {
       case 5:
         drive(bytes);
         break;
+      case 6:
+        heat(bytes);
+        break;
       default:
         clock_.advance(std::chrono::milliseconds(bytes.byte() * 8));
         break;
     }
     write(bytes.byte() % 8 == 0);
+    check_status();
   }
 
  private:
@@ -65,6 +70,13 @@ class Conversation {
       frame.payload[10] = last_.payload[2];
       frame.payload[11] = last_.payload[3];
     }
+    if (frame.type == FrameType::caps && last_.type == FrameType::hello && frame.payload.size() > 4) {
+      for (const std::size_t counts : {3U, 4U})
+        frame.payload[counts] = static_cast<std::uint8_t>(frame.payload[counts] % 4);
+    }
+    if (frame.type == FrameType::telemetry && !frame.payload.empty()) {
+      frame.payload.resize(protocol::telemetry_bytes + protocol::temperature_bytes * (frame.payload[0] % 3U));
+    }
     if (frame.type == FrameType::ack) frame.payload.resize(1);
     if (frame.type == FrameType::nack) frame.payload.resize(2);
     const EncodedFrame encoded = encode(frame);
@@ -76,6 +88,22 @@ class Conversation {
       commands.push_back({bytes.byte(), bytes.byte(), std::chrono::milliseconds(bytes.number<std::int16_t>())});
     require(session_.send(commands, clock_.now()) == session_.armed());
   }
+  void heat(Bytes& bytes) {
+    HeaterCommands commands;
+    for (std::size_t n = bytes.byte() % (commands.capacity() + 1); n > 0; --n) {
+      commands.push_back({bytes.byte(), bytes.number<std::int16_t>() / 100.0,
+                          std::chrono::milliseconds(bytes.number<std::int16_t>())});
+    }
+    const bool taken = session_.heat(commands, clock_.now());
+    require(!taken || (session_.armed() && session_.status().heater_count > 0));
+  }
+  void check_status() const {
+    const LinkStatus& status = session_.status();
+    require(status.motor_count <= protocol::motor_count && status.heater_count <= protocol::heater_count);
+    if (!status.telemetry) return;
+    for (const auto& heater : status.telemetry->heaters)
+      require(!heater.celsius || (*heater.celsius >= -40 && *heater.celsius <= 150));
+  }
   void write(bool has_backlog) {
     FrameDecoder decoder;
     std::optional<Frame> frame;
@@ -86,11 +114,22 @@ class Conversation {
     if (!frame) return;
     last_ = *frame;
     require(!has_backlog || frame->type == FrameType::stop_all);
+    if (frame->type == FrameType::heat) check_heat(*frame);
     if (frame->type != FrameType::set) return;
     require(session_.armed() && !frame->payload.empty() && frame->payload.size() % protocol::set_entry_bytes == 0);
     for (std::size_t at = 0; at < frame->payload.size(); at += protocol::set_entry_bytes)
       require(frame->payload[at] < session_.status().motor_count &&
               frame->payload[at + 2] <= protocol::drive_max_ms / 10);
+  }
+
+  void check_heat(const Frame& frame) const {
+    const FramePayload& payload = frame.payload;
+    require(session_.armed() && !payload.empty() && payload.size() % protocol::heat_entry_bytes == 0);
+    for (std::size_t at = 0; at < payload.size(); at += protocol::heat_entry_bytes) {
+      require(payload[at] < session_.status().heater_count);
+      require((payload[at + 1] | payload[at + 2] << 8) <= protocol::heat_max_decidegrees);
+      require(payload[at + 3] <= protocol::drive_max_ms / 10);
+    }
   }
 
   FakeClock clock_;
@@ -103,8 +142,8 @@ class Conversation {
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   telehug::Bytes bytes(data, size);
-  telehug::Conversation conversation;
+  telehug::FuzzedTalk talk;
   while (!bytes.empty())
-    conversation.step(bytes);
+    talk.step(bytes);
   return 0;
 }

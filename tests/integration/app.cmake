@@ -17,6 +17,8 @@ telehug_test(test_app_recovery KIND integration SUBJECT jacket
   SOURCES integration/app/recovery_test.cpp DEPS running_pair)
 telehug_test(test_app_stop KIND integration SUBJECT ops
   SOURCES integration/app/stop_test.cpp DEPS running_pair)
+telehug_test(test_app_consent KIND integration SUBJECT jacket
+  SOURCES integration/app/consent_test.cpp DEPS running_pair)
 telehug_test(test_app_paired KIND integration SUBJECT link
   SOURCES integration/app/paired_test.cpp DEPS running_pair)
 telehug_test(test_app_several KIND integration SUBJECT link
@@ -38,3 +40,8 @@ telehug_test(test_app_hug KIND integration SUBJECT jacket
 set_tests_properties(test_app_hug PROPERTIES RUN_SERIAL TRUE)  # as test_app_silence
 telehug_test(test_app_jacket_command KIND integration SUBJECT jacket
   SOURCES integration/app/jacket_command_test.cpp DEPS running_pair)
+telehug_test(test_app_felt_feedback KIND integration SUBJECT jacket
+  SOURCES integration/app/felt_feedback_test.cpp DEPS running_pair)
+telehug_test(test_app_panel KIND integration SUBJECT jacket
+  SOURCES integration/app/panel_test.cpp DEPS running_pair)
+set_tests_properties(test_app_panel PROPERTIES RUN_SERIAL TRUE)  # as test_app_silence

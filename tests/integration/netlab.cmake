@@ -37,6 +37,9 @@ if(NOT TELEHUG_SANITIZER)
 
   telehug_test(test_link_faults KIND integration SUBJECT link
     SOURCES integration/link_faults/link_faults_test.cpp DEPS faulty_link)
+  telehug_test(test_jacket_faults KIND integration SUBJECT jacket
+    SOURCES integration/link_faults/jacket_faults_test.cpp doubles/wire_between.cpp
+    DEPS faulty_link passive_jacket passive_link)
   telehug_test(test_wireguard KIND integration SUBJECT link
     SOURCES integration/ways/wireguard_test.cpp DEPS faulty_link)
   telehug_test(test_link_changes KIND integration SUBJECT link
@@ -51,5 +54,5 @@ if(NOT TELEHUG_SANITIZER)
     SOURCES integration/link_faults/forgery_test.cpp
     DEPS faulty_link telehug_dds telehug_idl USES_FASTDDS)
   set_tests_properties(test_forgery test_link_changes test_link_faults test_pairing_between_homes test_refusals
-    test_wireguard PROPERTIES RUN_SERIAL TRUE)
+    test_wireguard test_jacket_faults PROPERTIES RUN_SERIAL TRUE)
 endif()

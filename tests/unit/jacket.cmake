@@ -16,3 +16,9 @@ telehug_test(test_jacket KIND unit SUBJECT jacket
 add_test(NAME test_jacket_schema COMMAND /usr/bin/python3 ${CMAKE_CURRENT_SOURCE_DIR}/unit/jacket/schema_test.py
   $<TARGET_FILE:telehug-passive> ${PROJECT_SOURCE_DIR}/deploy/jackets)
 set_tests_properties(test_jacket_schema PROPERTIES LABELS "unit;jacket" TIMEOUT 120)
+
+telehug_test(test_safety KIND unit SUBJECT jacket
+  SOURCES unit/safety/consent_test.cpp unit/safety/current_budget_test.cpp unit/safety/duty_budget_test.cpp
+          unit/safety/heater_supervision_test.cpp unit/safety/muted_place_test.cpp
+          unit/safety/stage_budgets_test.cpp unit/safety/stage_consent_test.cpp unit/safety/stage_heaters_test.cpp
+  DEPS passive_safety)

@@ -13,6 +13,7 @@
 #include <memory>
 
 #include "common/clock.hpp"
+#include "simulator/heater_faults.hpp"
 #include "simulator/pin_activity.hpp"
 #include "simulator/pty_bridge.hpp"
 #include "simulator/simulated_jacket.hpp"
@@ -21,10 +22,13 @@ namespace telehug {
 namespace {
 
 struct Options {
+  std::string board{board_wirings().front().name};
   std::string firmware;
   std::string link;
   std::string pins;
   std::string edges;
+  unsigned supply_mv = 5000;
+  std::vector<std::string> heater_faults;
   bool die_with_parent = false;
 };
 
@@ -37,12 +41,22 @@ File open_log(const std::string& path) {
   return file;
 }
 
-std::filesystem::path default_firmware() {
+const BoardWiring& board_of(const Options& options) {
+  if (const BoardWiring* const board = find_board(options.board)) return *board;
+  std::string known;
+  for (const BoardWiring& board : board_wirings())
+    known += fmt::format("{}{}", known.empty() ? "" : ", ", board.name);
+  throw std::runtime_error(fmt::format("there is no board {}: choose one of {}", options.board, known));
+}
+
+std::filesystem::path firmware_of(const Options& options) {
+  if (!options.firmware.empty()) return options.firmware;
+  const std::string_view elf = board_of(options).elf;
   std::error_code ignored;
   const auto program = std::filesystem::read_symlink("/proc/self/exe", ignored);
-  auto built = program.parent_path().parent_path() / "firmware" / "telehug-jacket.elf";
+  auto built = program.parent_path().parent_path() / "firmware" / elf;
   if (std::filesystem::exists(built, ignored)) return built;
-  return TELEHUG_INSTALLED_FIRMWARE;
+  return std::filesystem::path(TELEHUG_INSTALLED_FIRMWARE) / elf;
 }
 
 // SIGTERM and SIGINT end the program, SIGUSR1 cuts the firmware's input or joins it again.
@@ -68,10 +82,13 @@ class Simulator {
         signals_(open_signals()),
         pins_(open_log(options.pins)),
         edges_(open_log(options.edges)),
-        jacket_(options.firmware.empty() ? default_firmware() : std::filesystem::path(options.firmware)),
+        jacket_(firmware_of(options), board_of(options)),
         pty_(options.link),
         activity_([this](const ActivityChange& change) { log(change); }) {
     jacket_.on_edge([this](const PinEdge& edge) { on_edge(edge); });
+    jacket_.heaters().set_supply_mv(options.supply_mv);
+    for (const std::string& text : options.heater_faults)
+      plan(parse_heater_fault(text));
   }
   ~Simulator() { close(signals_); }
   Simulator(const Simulator&) = delete;
@@ -102,6 +119,15 @@ class Simulator {
   }
 
  private:
+  void plan(const HeaterFaultOption& fault) {
+    if (fault.heater >= jacket_.heaters().size()) {
+      throw std::runtime_error(fmt::format("the board {} has {} heaters: there is no heater {}", options_.board,
+                                           jacket_.heaters().size(), fault.heater));
+    }
+    const double cycle = fault.at_s * 1000 * static_cast<double>(jacket_cycles_per_ms);
+    jacket_.heaters().break_at(static_cast<std::uint64_t>(cycle), fault.heater, fault.what);
+  }
+
   static constexpr std::uint64_t slice_cycles = jacket_cycles_per_ms;
   static constexpr std::size_t line_bytes_max = 64;
   static constexpr Duration lag_max = 20ms;  // lost time beyond this is dropped, not caught up with
@@ -175,13 +201,20 @@ int main(int argc, char** argv) {
     CLI::App app{
         "The telehug jacket without a jacket: its firmware, simulated, behind a pseudo terminal.\n"
         "SIGUSR1 cuts the firmware's input, and joins it again."};
+    app.add_option("--board", options.board, "motors16, motors12_heaters2 or legacy")->capture_default_str();
     app.add_option("--firmware", options.firmware,
-                   "ELF file of the firmware (default: the one built or installed with this)");
+                   "ELF file of the firmware (default: the one of the board, built or installed with this)");
     app.add_option("--link", options.link, "make this path a symbolic link to the terminal");
     app.add_option("--pins", options.pins,
-                   "write here: monotonic_ns,cycle,channel,on|off for each motor that starts or ends");
+                   "write here: monotonic_ns,cycle,channel,on|off for each motor that starts or ends; "
+                   "channels 16 and 17 are the heaters");
     app.add_option("--edges", options.edges,
-                   "write here: monotonic_ns,cycle,channel,high|low for each edge of a motor's pin");
+                   "write here: monotonic_ns,cycle,channel,high|low for each edge of a motor's or heater's pin");
+    app.add_option("--supply", options.supply_mv, "of the microcontroller, in mV")
+        ->check(CLI::Range(1800, 5500))
+        ->capture_default_str();
+    app.add_option("--heater-fault", options.heater_faults,
+                   "HEATER:open|short|detached|runaway|overvoltage[@SECONDS]; may be given several times");
     app.add_flag("--die-with-parent", options.die_with_parent, "end when the program that started this one has ended");
     CLI11_PARSE(app, argc, argv);
     telehug::Simulator(options).run();

@@ -16,7 +16,7 @@ void PinActivity::on_edge(const PinEdge& edge, std::int64_t now_ns) {
 }
 
 void PinActivity::advance(std::uint64_t cycle) {
-  for (std::uint8_t i = 0; i < jacket_channels; ++i) {
+  for (std::uint8_t i = 0; i < jacket_outputs; ++i) {
     Channel& channel = channels_.at(i);
     if (!channel.on || channel.high || cycle - channel.last_high_cycle <= quiet_cycles) continue;
     channel.on = false;
@@ -25,7 +25,7 @@ void PinActivity::advance(std::uint64_t cycle) {
 }
 
 void PinActivity::end_all(std::uint64_t cycle, std::int64_t now_ns) {
-  for (std::uint8_t i = 0; i < jacket_channels; ++i) {
+  for (std::uint8_t i = 0; i < jacket_outputs; ++i) {
     if (channels_.at(i).high) on_edge({cycle, i, false}, now_ns);
   }
   advance(cycle + quiet_cycles + 1);

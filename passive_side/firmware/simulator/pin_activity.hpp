@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// From the edges of pins that are modulated (about 1 kHz) to motors that run or don't.
+// From the edges of pins that are modulated (about 1 kHz) to motors and heaters that run or don't.
 #pragma once
 
 #include <array>
@@ -44,7 +44,7 @@ class PinActivity {
     std::int64_t last_high_ns = 0;
   };
   Listener listener_;
-  std::array<Channel, jacket_channels> channels_{};
+  std::array<Channel, jacket_outputs> channels_{};
 };
 
 }  // namespace telehug

@@ -5,10 +5,10 @@
 #include <avr_uart.h>
 #include <sim_avr.h>
 #include <sim_cycle_timers.h>
-#include <sim_elf.h>
 #include <sim_io.h>
 
 #include <algorithm>
+#include <array>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
@@ -16,18 +16,17 @@
 #include <stdexcept>
 #include <utility>
 
+#include "simulator/loaded_elf.hpp"
+
 namespace telehug {
 namespace {
 
-// The wiring as README.md of the firmware shows it, on purpose not shared with the firmware's own table.
-struct PortWiring {
-  char port;
-  std::uint8_t first_bit;
-  std::uint8_t first_channel;
-  std::uint8_t channels;
-};
-constexpr std::array<PortWiring, 3> wiring{{{'D', 2, 0, 6}, {'B', 0, 6, 5}, {'C', 0, 11, 5}}};
-constexpr unsigned led_bit = 5;  // of port B
+constexpr std::array<char, 3> port_names{'B', 'C', 'D'};
+constexpr unsigned led_bit = 5;         // of port B
+constexpr unsigned timer_clock = 0xB1;  // TCCR2B
+
+// At power-on, RAM holds anything but what a run has left.
+constexpr std::uint8_t undefined_ram = 0xA5;
 
 // What the ATmega328P's receiver holds: a two byte FIFO and the shift register.
 constexpr unsigned real_uart_depth = 3;
@@ -35,24 +34,6 @@ constexpr unsigned real_uart_depth = 3;
 void be_silent(avr_t*, const int level, const char* format, va_list arguments) {
   if (level == LOG_ERROR) std::vfprintf(stderr, format, arguments);
 }
-
-// What elf_read_firmware() has allocated and avr_load_firmware() has copied; libsimavr itself never frees it.
-struct LoadedElf {
-  elf_firmware_t content{};
-
-  LoadedElf() = default;
-  ~LoadedElf() {
-    std::free(content.flash);
-    std::free(content.eeprom);
-    std::free(content.fuse);
-    std::free(content.lockbits);
-    for (std::uint32_t i = 0; i < content.symbolcount; ++i)
-      std::free(content.symbol[i]);
-    std::free(static_cast<void*>(content.symbol));
-  }
-  LoadedElf(const LoadedElf&) = delete;
-  LoadedElf& operator=(const LoadedElf&) = delete;
-};
 
 void do_not_sleep(avr_t*, avr_cycle_count_t) {}
 
@@ -84,8 +65,11 @@ struct SimulatedJacket::Machine {
   std::uint64_t resets = 0;
   std::vector<std::uint8_t> output;
 
-  std::array<bool, jacket_channels> high{};
+  const BoardWiring& board;
+  std::array<bool, jacket_outputs> high{};
   bool led = false;
+  std::uint32_t statics_end = 0;
+  std::unique_ptr<HeaterBench> heaters;
   EdgeListener listener;
 
   struct Hang {
@@ -96,11 +80,11 @@ struct SimulatedJacket::Machine {
 
   struct PortListener {
     Machine* machine = nullptr;
-    PortWiring wires{};
+    char name = 0;
   };
-  std::array<PortListener, wiring.size()> ports;
+  std::array<PortListener, port_names.size()> ports;
 
-  explicit Machine(const std::filesystem::path& elf);
+  Machine(const std::filesystem::path& elf, const BoardWiring& wiring);
   ~Machine() {
     avr_terminate(avr);
     std::free(avr);
@@ -112,6 +96,11 @@ struct SimulatedJacket::Machine {
     if (high[channel] == level) return;
     high[channel] = level;
     if (listener) listener({avr->cycle, static_cast<std::uint8_t>(channel), level});
+  }
+
+  void set_heater(std::size_t heater, bool level) {
+    set_pin(first_heater_channel + heater, level);
+    heaters->set_transistor(heater, level);
   }
 
   // simavr counts 11 bits for 8N1 where the wire has 10.
@@ -138,33 +127,33 @@ struct SimulatedJacket::Machine {
   void step();
 };
 
-SimulatedJacket::Machine::Machine(const std::filesystem::path& elf) {
+SimulatedJacket::Machine::Machine(const std::filesystem::path& elf, const BoardWiring& wiring) : board(wiring) {
   avr_global_logger_set(be_silent);
-  LoadedElf firmware;
-  if (elf_read_firmware(elf.c_str(), &firmware.content) != 0) {
-    throw std::runtime_error("can't read the firmware " + elf.string() + ": build it, or name another with --firmware");
-  }
+  LoadedElf firmware(elf);
   avr = avr_make_mcu_by_name("atmega328p");
   if (avr == nullptr) throw std::runtime_error("this libsimavr does not know the ATmega328P");
   avr_init(avr);
   firmware.content.frequency = static_cast<std::uint32_t>(jacket_cycles_per_ms * 1000);
   avr_load_firmware(avr, &firmware.content);
   avr->sleep = do_not_sleep;
+  std::fill(avr->data + avr->ioend + 1, avr->data + avr->ramend + 1, undefined_ram);
+  statics_end = firmware.end_of_statics();
 
   std::uint32_t flags = 0;
   avr_ioctl(avr, AVR_IOCTL_UART_SET_FLAGS('0'), &flags);
   uart = find_uart(avr);
   uart_input = avr_io_getirq(avr, AVR_IOCTL_UART_GETIRQ('0'), UART_IRQ_INPUT);
   avr_irq_register_notify(avr_io_getirq(avr, AVR_IOCTL_UART_GETIRQ('0'), UART_IRQ_OUTPUT), &Machine::on_output, this);
-  for (std::size_t i = 0; i < wiring.size(); ++i) {
-    ports[i] = {this, wiring[i]};
+  for (std::size_t i = 0; i < ports.size(); ++i) {
+    ports[i] = {this, port_names[i]};
     avr_irq_t* const pins =
-        avr_io_getirq(avr, AVR_IOCTL_IOPORT_GETIRQ(static_cast<unsigned>(wiring[i].port)), IOPORT_IRQ_PIN_ALL);
+        avr_io_getirq(avr, AVR_IOCTL_IOPORT_GETIRQ(static_cast<unsigned>(port_names[i])), IOPORT_IRQ_PIN_ALL);
     avr_irq_register_notify(pins, &Machine::on_port, &ports[i]);
   }
   reset_watcher.kind = "telehug-reset-watcher";
   reset_watcher.reset = &Machine::on_reset;
   avr_register_io(avr, &reset_watcher);
+  heaters = std::make_unique<HeaterBench>(avr, board);
 }
 
 avr_cycle_count_t SimulatedJacket::Machine::on_byte_time(avr_t*, avr_cycle_count_t when, void* self) {
@@ -184,11 +173,19 @@ avr_cycle_count_t SimulatedJacket::Machine::on_byte_time(avr_t*, avr_cycle_count
 }
 
 void SimulatedJacket::Machine::on_port(avr_irq_t*, std::uint32_t value, void* port_listener) {
-  const auto& [machine, wires] = *static_cast<PortListener*>(port_listener);
-  for (std::size_t i = 0; i < wires.channels; ++i) {
-    machine->set_pin(wires.first_channel + i, (value >> (wires.first_bit + i) & 1U) != 0);
+  const auto& [machine, name] = *static_cast<PortListener*>(port_listener);
+  const BoardWiring& board = machine->board;
+  const auto is_high = [&](const BoardPin& pin) { return (value >> pin.bit & 1U) != 0; };
+  for (std::size_t i = 0; i < board.motors.size(); ++i) {
+    if (board.motors[i].port == name) machine->set_pin(i, is_high(board.motors[i]));
   }
-  if (wires.port == 'B') machine->led = (value >> led_bit & 1U) != 0;
+  for (std::size_t i = 0; i < board.heaters.size(); ++i) {
+    if (board.heaters[i].transistor.port == name) machine->set_heater(i, is_high(board.heaters[i].transistor));
+  }
+  if (board.heater_supply && board.heater_supply->port == name) {
+    machine->heaters->set_supply_transistor(is_high(*board.heater_supply));
+  }
+  if (name == 'B') machine->led = (value >> led_bit & 1U) != 0;
 }
 
 // simavr forgets all timers at a reset, and does not say that the pins fell.
@@ -197,6 +194,9 @@ void SimulatedJacket::Machine::on_reset(avr_io_t* io) {
   ++machine.resets;
   for (std::size_t channel = 0; channel < jacket_channels; ++channel)
     machine.set_pin(channel, false);
+  for (std::size_t heater = 0; heater < machine.board.heaters.size(); ++heater)
+    machine.set_heater(heater, false);
+  machine.heaters->set_supply_transistor(false);
   machine.led = false;
   machine.corrected_cycles_per_byte = 0;
   if (machine.hang) {
@@ -212,7 +212,8 @@ void SimulatedJacket::Machine::step() {
   if (state == cpu_Crashed || state == cpu_Done) throw std::runtime_error("the simulated firmware has crashed");
 }
 
-SimulatedJacket::SimulatedJacket(const std::filesystem::path& elf) : machine_(std::make_unique<Machine>(elf)) {}
+SimulatedJacket::SimulatedJacket(const std::filesystem::path& elf, const BoardWiring& board)
+    : machine_(std::make_unique<Machine>(elf, board)) {}
 SimulatedJacket::~SimulatedJacket() = default;
 
 void SimulatedJacket::run_cycles(std::uint64_t cycles) {
@@ -270,6 +271,28 @@ std::uint64_t SimulatedJacket::uart_overruns() const {
 }
 std::uint64_t SimulatedJacket::resets() const {
   return machine_->resets;
+}
+
+HeaterBench& SimulatedJacket::heaters() {
+  return *machine_->heaters;
+}
+
+std::size_t SimulatedJacket::untouched_ram() const {
+  const avr_t* const avr = machine_->avr;
+  const std::uint8_t* const statics_end = avr->data + machine_->statics_end;
+  const std::uint8_t* const ram_end = avr->data + avr->ramend + 1;
+  return static_cast<std::size_t>(
+      std::find_if(statics_end, ram_end, [](std::uint8_t byte) { return byte != undefined_ram; }) - statics_end);
+}
+
+void SimulatedJacket::stop_timer() {
+  avr_t* const avr = machine_->avr;
+  const auto& io = avr->io[AVR_DATA_TO_IO(timer_clock)].w;
+  io.c(avr, timer_clock, 0, io.param);
+}
+
+void SimulatedJacket::reset() {
+  avr_reset(machine_->avr);
 }
 
 void SimulatedJacket::hang_main_loop() {

@@ -3,7 +3,6 @@
 // The jacket's real firmware in a simulated ATmega328P, in virtual time: deterministic, some 50 times faster than real.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <functional>
@@ -11,12 +10,17 @@
 #include <span>
 #include <vector>
 
+#include "simulator/board_wiring.hpp"
+#include "simulator/heater_bench.hpp"
+
 namespace telehug {
 
 inline constexpr std::uint64_t jacket_cycles_per_ms = 16'000;
-inline constexpr std::size_t jacket_channels = 16;
+inline constexpr std::size_t jacket_channels = 16;  // of motors
+inline constexpr std::size_t jacket_outputs = 18;   // the heaters are channels 16 and 17
+inline constexpr std::uint8_t first_heater_channel = 16;
 
-// A motor's pin changes its level.
+// A motor's or a heater's pin changes its level.
 struct PinEdge {
   std::uint64_t cycle = 0;
   std::uint8_t channel = 0;
@@ -28,7 +32,7 @@ class SimulatedJacket {
   using EdgeListener = std::function<void(const PinEdge&)>;
 
   // Throws std::runtime_error if the ELF can't be loaded.
-  explicit SimulatedJacket(const std::filesystem::path& elf);
+  explicit SimulatedJacket(const std::filesystem::path& elf, const BoardWiring& board = board_wirings().front());
   ~SimulatedJacket();
   SimulatedJacket(const SimulatedJacket&) = delete;
   SimulatedJacket& operator=(const SimulatedJacket&) = delete;
@@ -48,7 +52,7 @@ class SimulatedJacket {
   // Muted, bytes to the jacket get lost.
   void mute_input(bool muted);
 
-  // Called for every change of a motor's pin. A reset lets go of all pins: they read low.
+  // Called for every change of a motor's or a heater's pin. A reset lets go of all pins: they read low.
   void on_edge(EdgeListener listener);
   [[nodiscard]] bool is_high(std::uint8_t channel) const;
   [[nodiscard]] bool armed_led() const;
@@ -57,8 +61,18 @@ class SimulatedJacket {
   [[nodiscard]] std::uint64_t uart_overruns() const;
   [[nodiscard]] std::uint64_t resets() const;  // after power-on
 
+  // Its heaters with all that can happen to them, and its supply.
+  [[nodiscard]] HeaterBench& heaters();
+
   // Lets the main loop spin on one place, interrupts still served, until the next reset.
   void hang_main_loop();
+  // Takes the clock of the timer away, as a stray write of the firmware would.
+  void stop_timer();
+  // As the reset line does: when a host opens the port of many boards, or the detector of a low supply.
+  void reset();
+
+  // Bytes of RAM between the statics and the lowest that the stack has reached since power-on.
+  [[nodiscard]] std::size_t untouched_ram() const;
 
  private:
   struct Machine;

@@ -51,6 +51,7 @@ class SwallowingLink final : public JacketLink {
     commands_ += commands.size();
     return true;
   }
+  bool heat(const HeaterCommands&, Timestamp) override { return false; }
   void stop_all(Timestamp) override {}
   [[nodiscard]] const LinkStatus& status() const override { return status_; }
 

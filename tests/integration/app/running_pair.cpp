@@ -99,7 +99,7 @@ std::vector<std::string> RunningPair::command(Side side, std::vector<std::string
 }
 
 std::vector<std::string> RunningPair::passive_command() const {
-  std::vector<std::string> settings{"jacket.link=" + jacket_link,
+  std::vector<std::string> settings{"jacket.link=" + jacket_link, "consent.file=" + (folder / "consent.json").string(),
                                     "jacket.profile=" TELEHUG_SOURCE "/deploy/jackets/duemilanove-16.toml"};
   settings.insert(settings.end(), passive_settings.begin(), passive_settings.end());
   return command(Side::passive, std::move(settings));
@@ -149,8 +149,10 @@ Outcome RunningPair::run(const std::vector<std::string>& command) const {
   return {ended ? code : std::nullopt, content_of(log)};
 }
 
-Outcome RunningPair::telehug(const std::string& command, Side side) const {
-  return run({program("telehug"), command, "--socket", socket(side)});
+Outcome RunningPair::telehug(const std::string& command, Side side, const std::vector<std::string>& arguments) const {
+  std::vector<std::string> words{program("telehug"), command, "--socket", socket(side)};
+  words.insert(words.end(), arguments.begin(), arguments.end());
+  return run(words);
 }
 
 Json RunningPair::status(Side side) const {

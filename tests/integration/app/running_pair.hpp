@@ -69,8 +69,9 @@ class RunningPair {
 
   // Runs a program to its end.
   [[nodiscard]] Outcome run(const std::vector<std::string>& command) const;
-  // `telehug COMMAND --socket ...`
-  [[nodiscard]] Outcome telehug(const std::string& command, Side side) const;
+  // `telehug COMMAND --socket ... ARGUMENTS`
+  [[nodiscard]] Outcome telehug(const std::string& command, Side side,
+                                const std::vector<std::string>& arguments = {}) const;
   [[nodiscard]] std::vector<std::string> active_command() const;
   [[nodiscard]] std::vector<std::string> passive_command() const;
 

@@ -62,6 +62,12 @@ class TelehugCommand : public testing::Test {
       hug_ = request;
       return {{"side", side_name(side)}};
     });
+    for (const char* order : {"pause", "unpause", "mute", "unmute"}) {
+      server->on(order, [this, side](const Json& request) -> Json {
+        order_ = request;
+        return {{"side", side_name(side)}};
+      });
+    }
     server->on("resume", [](const Json&) -> Json { return {{"error", "the other side has stopped"}}; });
     server->start();
     return server;
@@ -71,6 +77,7 @@ class TelehugCommand : public testing::Test {
   std::filesystem::path runtime_ = folder_.path() / "run";
   std::string reason_;
   Json hug_;
+  Json order_;
 };
 
 TEST_F(TelehugCommand, PrintsItsVersion) {
@@ -86,8 +93,10 @@ TEST_F(TelehugCommand, HelpsWithExamples) {
 }
 
 TEST_F(TelehugCommand, RefusesACommandLineItDoesNotUnderstand) {
-  for (const char* wrong : {"", "dance", "status --loud", "status --side left", "watch --count 0", "hug --seconds 11",
-                            "hug --seconds 0.1", "hug --strength 0", "hug --strength 1.5"}) {
+  for (const char* wrong :
+       {"", "dance", "status --loud", "status --side left", "watch --count 0", "hug --seconds 11", "hug --seconds 0.1",
+        "hug --strength 0", "hug --strength 1.5", "pause 0", "pause 1441", "pause soon", "mute", "mute 0", "mute 101",
+        "mute --actuator 256", "mute --all", "unmute", "unpause 5"}) {
     const Outcome outcome = run(wrong);
     EXPECT_EQ(outcome.code, to_int(ExitCode::usage)) << wrong;
     EXPECT_FALSE(outcome.errors.empty()) << wrong;
@@ -146,6 +155,7 @@ TEST_F(TelehugCommand, MakesAnExitCodeOfAStatusWhenAsked) {
       {{{"state", "ok"}, {"peer", {{"connected", true}}}}, ExitCode::ok},
       {{{"state", "waiting"}, {"peer", {{"connected", false}}}}, ExitCode::peer_absent},
       {{{"state", "stopped"}, {"peer", {{"connected", false}}}}, ExitCode::stopped},
+      {{{"state", "paused"}, {"peer", {{"connected", true}}}}, ExitCode::stopped},
       {{{"state", "fault"}}, ExitCode::fault},
   };
   for (const auto& [status, expected] : cases) {
@@ -184,6 +194,26 @@ TEST_F(TelehugCommand, AsksWhichWayAHugGoesWhereBothSidesRun) {
   EXPECT_THAT(outcome.errors, HasSubstr("--side active hugs the wearer, --side passive hugs back"));
   EXPECT_TRUE(hug_.is_null());
   EXPECT_EQ(run("hug --side passive").out, "passive: hug\n");
+}
+
+TEST_F(TelehugCommand, TellsTheWearersDaemonAloneWhatTheyWant) {
+  const auto active = daemon(Side::active, Json::object());
+  const Outcome nobody = run("pause");
+  EXPECT_EQ(nobody.code, to_int(ExitCode::not_running));
+  EXPECT_THAT(nobody.errors, HasSubstr("no telehug-passive is running"));
+  const auto passive = daemon(Side::passive, Json::object());
+  EXPECT_EQ(run("pause").out, "passive: paused until `telehug unpause`\n");
+  EXPECT_EQ(order_, Json({{"command", "pause"}}));
+  EXPECT_EQ(run("pause 30").out, "passive: paused for 30 min\n");
+  EXPECT_EQ(order_, Json({{"command", "pause"}, {"minutes", 30}}));
+  EXPECT_EQ(run("unpause").out, "passive: unpaused\n");
+  EXPECT_EQ(order_, Json({{"command", "unpause"}}));
+  EXPECT_EQ(run("mute 8 13 --actuator 3").out, "passive: muted\n");
+  EXPECT_EQ(order_, Json({{"command", "mute"}, {"boxes", {8, 13}}, {"actuators", {3}}}));
+  EXPECT_EQ(run("unmute 8").out, "passive: unmuted\n");
+  EXPECT_EQ(order_, Json({{"command", "unmute"}, {"boxes", {8}}, {"actuators", Json::array()}}));
+  EXPECT_EQ(run("unmute --all").code, to_int(ExitCode::ok));
+  EXPECT_EQ(order_.value("all", false), true);
 }
 
 TEST_F(TelehugCommand, TellsWhyADaemonRefuses) {

@@ -29,6 +29,27 @@ TEST(AStop, CutsALongReasonBetweenTwoCharacters) {
   EXPECT_EQ(stop.reason(), std::string(199, 'x'));
 }
 
+TEST(AStop, CannotBeLiftedWhileItIsHeld) {
+  StopSwitch stop;
+  stop.hold("the button was pressed", "the button is pressed");
+  EXPECT_TRUE(stop.stopped());
+  EXPECT_EQ(stop.reason(), "the button was pressed");
+  EXPECT_EQ(stop.resume(), (json{{"error", "the button is pressed"}}));
+  EXPECT_TRUE(stop.stopped());
+  stop.stop({{"reason", "dinner"}});
+  EXPECT_EQ(stop.resume(), (json{{"error", "the button is pressed"}})) << "another stop does not let go of it";
+}
+
+TEST(AStop, LastsAfterWhatHeldItHasLetGo) {
+  StopSwitch stop;
+  stop.hold("the button was pressed", "the button is pressed");
+  stop.release();
+  EXPECT_TRUE(stop.stopped());
+  EXPECT_EQ(stop.reason(), "the button was pressed");
+  EXPECT_EQ(stop.resume(), (json{{"stopped", false}}));
+  EXPECT_FALSE(stop.stopped());
+}
+
 class StopOverDds : public testing::Test {
  protected:
   [[nodiscard]] DdsSettings settings(Side side) const {

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The links against the real firmware behind a pseudo terminal, in real time.
-#include "link/serial_link.hpp"
-
 #include <fcntl.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -13,8 +11,10 @@
 #include <thread>
 
 #include "integration/link/simulator_process.hpp"
+#include "link/jacket_session.hpp"
 #include "link/make_link.hpp"
 #include "link/simulated_link.hpp"
+#include "link/wire_link.hpp"
 
 namespace telehug {
 namespace {
@@ -23,6 +23,10 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
 constexpr Duration patience = 20s;
+
+WireLink serial_link(const std::filesystem::path& path) {
+  return {std::make_unique<SerialOpener>(path, default_baud), std::make_unique<JacketSession>()};
+}
 
 // Lives through the time a daemon would: polls every 2 ms until it holds, false if it never does.
 template <typename Condition>
@@ -70,11 +74,11 @@ TEST(SerialLink, ArmsTheJacketAndRunsTheMotorsItIsToldAndNoOthers) {
   const TemporaryFolder folder;
   const SimulatorProcess simulator({"--link", folder / "jacket", "--pins", folder / "pins"});
   EXPECT_EQ(simulator.first_line(), "ready " + (folder / "jacket").string());
-  SerialLink link(folder / "jacket");
+  WireLink link = serial_link(folder / "jacket");
   EXPECT_FALSE(link.send({{5, 255, 200ms}}, SteadyClock{}.now()));
   ASSERT_TRUE(poll_until_armed(link)) << link.status().problem;
   EXPECT_EQ(link.status().motor_count, 16);
-  EXPECT_EQ(link.status().firmware_version, 1);
+  EXPECT_EQ(link.status().firmware_version, 2);
   EXPECT_EQ(link.status().problem, "");
   ASSERT_TRUE(drive_until(link, [&] { return runs_both(folder / "pins"); }));
   EXPECT_THAT(running(read_pins(folder / "pins")), ElementsAre(5, 9));
@@ -93,7 +97,7 @@ TEST(SerialLink, ArmsByItselfAgainWhenTheJacketComesBackUnderAnotherTerminal) {
   const auto first_terminal = std::filesystem::read_symlink(folder / "jacket");
   // Keeps the number of the first terminal taken.
   const int held = open(first_terminal.c_str(), O_RDWR | O_NOCTTY | O_CLOEXEC);
-  SerialLink link(folder / "jacket");
+  WireLink link = serial_link(folder / "jacket");
   ASSERT_TRUE(poll_until_armed(link));
   first->end(SIGKILL);
   ASSERT_TRUE(poll_until(link, [&] { return link.status().state == LinkState::absent; }));
@@ -108,10 +112,33 @@ TEST(SerialLink, ArmsByItselfAgainWhenTheJacketComesBackUnderAnotherTerminal) {
   close(held);
 }
 
+TEST(SerialLink, FindsTheOnlyJacketAgainUnderAnotherName) {
+  const TemporaryFolder folder;
+  std::filesystem::create_directory(folder / "by-id");
+  WireLink link(std::make_unique<SerialOpener>("auto", default_baud, folder / "by-id"),
+                std::make_unique<JacketSession>());
+  auto first = std::make_unique<SimulatorProcess>(std::vector<std::string>{"--link", folder / "by-id/usb-A"});
+  ASSERT_TRUE(poll_until_armed(link)) << link.status().problem;
+  EXPECT_EQ(link.status().device, (folder / "by-id/usb-A").string());
+  // Pulled while frames leave.
+  for (int i = 0; i < 50; ++i)
+    link.stop_all(SteadyClock{}.now());
+  first->end(SIGKILL);
+  ASSERT_TRUE(poll_until(link, [&] { return link.status().state == LinkState::absent; }));
+  std::filesystem::remove(folder / "by-id/usb-A");
+
+  const SimulatorProcess second({"--link", folder / "by-id/usb-B", "--pins", folder / "pins"});
+  ASSERT_TRUE(poll_until_armed(link)) << link.status().problem;
+  EXPECT_EQ(link.status().device, (folder / "by-id/usb-B").string());
+  EXPECT_EQ(link.status().reconnects, 1U);
+  EXPECT_TRUE(drive_until(link, [&] { return runs_both(folder / "pins"); }));
+  EXPECT_THAT(running(read_pins(folder / "pins")), ElementsAre(5, 9));
+}
+
 TEST(SerialLink, LeavesNoMotorRunningWhenTheFirmwaresInputIsCut) {
   const TemporaryFolder folder;
   SimulatorProcess simulator({"--link", folder / "jacket", "--pins", folder / "pins"});
-  SerialLink link(folder / "jacket");
+  WireLink link = serial_link(folder / "jacket");
   ASSERT_TRUE(poll_until_armed(link));
   ASSERT_TRUE(drive_until(link, [&] { return runs_both(folder / "pins"); }));
   simulator.signal(SIGUSR1);
@@ -135,9 +162,9 @@ TEST(SerialLink, LeavesNoMotorRunningWhenTheFirmwaresInputIsCut) {
 TEST(SerialLink, RefusesAPortThatAnotherLinkHolds) {
   const TemporaryFolder folder;
   const SimulatorProcess simulator({"--link", folder / "jacket"});
-  SerialLink first(folder / "jacket");
+  WireLink first = serial_link(folder / "jacket");
   ASSERT_TRUE(poll_until_armed(first));
-  SerialLink second(folder / "jacket");
+  WireLink second = serial_link(folder / "jacket");
   second.poll(SteadyClock{}.now());
   EXPECT_EQ(second.status().state, LinkState::absent);
   EXPECT_THAT(second.status().problem, HasSubstr("close the program that uses it"));
@@ -148,7 +175,7 @@ TEST(SimulatedLink, StartsItsJacketAndStartsItAgainAfterItsDeath) {
   SimulatorOptions options;
   options.program = TELEHUG_BIN "/telehug-jacket-sim";
   options.pins = folder / "pins";
-  SimulatedLink link(options);
+  SimulatedLink link(options, std::make_unique<JacketSession>());
   ASSERT_TRUE(poll_until_armed(link)) << link.status().problem;
   EXPECT_TRUE(drive_until(link, [&] { return runs_both(folder / "pins"); }));
   kill(link.simulator(), SIGKILL);

@@ -18,6 +18,12 @@ class ConfigFaults : public testing::Test {
     const auto config = load_active_config(sources);
     return config ? "" : config.error().message;
   }
+  std::string passive_faults(const std::string& content) {
+    ConfigSources sources;
+    sources.only_file = folder_.write("c.toml", content);
+    const auto config = load_passive_config(sources);
+    return config ? "" : config.error().message;
+  }
   TemporaryFolder folder_;
 };
 
@@ -43,6 +49,40 @@ TEST_F(ConfigFaults, AreAllToldAtOnceWithTheirLines) {
   EXPECT_THAT(text, HasSubstr("c.toml:10: touch.detector is \"best\"; it must be one of default | thesis"));
   EXPECT_THAT(text, HasSubstr("c.toml:12: rig.screen_width_mm and rig.screen_height_mm must both be given"));
   EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 6);
+}
+
+TEST_F(ConfigFaults, TellOfLinesThatCannotBe) {
+  const std::string text = passive_faults(
+      "[gpio]\n"
+      "chip = \"simulated:\"\n"
+      "stop_button_line = \"GPIO 17\"\n"
+      "hug_button_line = \"../power\"\n"
+      "power_line = \"a_name_that_is_longer_than_31_bytes\"\n"
+      "button_pull = \"left\"\n"
+      "debounce_ms = 26\n");
+  EXPECT_THAT(text, HasSubstr("c.toml:2: gpio.chip: a GPIO chip is its path, name or label"));
+  for (const char* line :
+       {"c.toml:3: gpio.stop_button_line", "c.toml:4: gpio.hug_button_line", "c.toml:5: gpio.power_line"})
+    EXPECT_THAT(text, HasSubstr(std::string(line) + ": a line is its number on the chip or its name"));
+  EXPECT_THAT(text, HasSubstr("c.toml:6: gpio.button_pull is \"left\"; it must be one of up | down | none"));
+  EXPECT_THAT(text, HasSubstr("c.toml:7: gpio.debounce_ms is 26; it must be within 1 .. 25 ms"));
+}
+
+TEST_F(ConfigFaults, TellOfALineWithoutItsChip) {
+  EXPECT_THAT(passive_faults("[gpio]\nstop_button_line = \"17\"\n"),
+              HasSubstr("c.toml:2: gpio.stop_button_line is given, but gpio.chip is not: name the chip that has it"));
+  EXPECT_EQ(passive_faults("[gpio]\nchip = \"gpiochip0\"\nstop_button_line = \"17\"\n"), "");
+}
+
+TEST_F(ConfigFaults, TellOfALineThatIsToDoTwoThings) {
+  EXPECT_THAT(passive_faults("[gpio]\nchip = \"gpiochip0\"\nstop_button_line = \"17\"\nled_line = \"17\"\n"),
+              HasSubstr("gpio.stop_button_line and gpio.led_line are both \"17\": a line does one thing"));
+}
+
+TEST_F(ConfigFaults, TellOfAStopButtonThatResumesTooEasily) {
+  EXPECT_THAT(passive_faults("[gpio]\nstop_button_resume_s = 1\n"),
+              HasSubstr("must be at least 2 s long, or never (0)"));
+  EXPECT_EQ(passive_faults("[gpio]\nstop_button_resume_s = 0\n"), "");
 }
 
 TEST_F(ConfigFaults, TellOfAPowerLineThatFlickersOtherwiseThanAnyDoes) {

@@ -43,11 +43,14 @@ TEST(ScreenRegion, IsNoneOrFourNumbers) {
     EXPECT_FALSE(parse_screen_region(wrong)) << wrong;
 }
 
-TEST(JacketLinkChoice, IsASerialLineTheSimulationOrAFile) {
+TEST(JacketLinkChoice, IsASerialLineBluetoothTheSimulationOrAFile) {
   EXPECT_EQ(parse_jacket_link("simulated")->kind, JacketLinkKind::simulated);
   EXPECT_EQ(parse_jacket_link("serial:/dev/ttyACM0")->path, "/dev/ttyACM0");
   EXPECT_EQ(parse_jacket_link("record:out.bin")->kind, JacketLinkKind::recorded);
-  for (const char* wrong : {"", "serial:", "record:", "serial", "usb:x"})
+  EXPECT_EQ(parse_jacket_link("rfcomm:00:11:22:33:44:55/3")->kind, JacketLinkKind::bluetooth);
+  EXPECT_EQ(parse_jacket_link("rfcomm:00:11:22:33:44:55/3")->path, "00:11:22:33:44:55/3");
+  for (const char* wrong :
+       {"", "serial:", "record:", "serial", "usb:x", "rfcomm:", "rfcomm:00:11:22:33:44", "rfcomm:00:11:22:33:44:55/31"})
     EXPECT_FALSE(parse_jacket_link(wrong));
 }
 

@@ -26,6 +26,14 @@ TEST(ScreenConsentFile, LiesInTheStateFolder) {
   EXPECT_TRUE(screen_consent_file().is_absolute());
 }
 
+TEST(ConsentFile, IsAsConfiguredElseInTheStateFolder) {
+  setenv("STATE_DIRECTORY", "/var/lib/telehug", 1);
+  EXPECT_EQ(consent_file({}), "/var/lib/telehug/consent.json");
+  EXPECT_EQ(consent_file({.quiet_hours = {}, .file = "/a/mine.json"}), "/a/mine.json");
+  unsetenv("STATE_DIRECTORY");
+  EXPECT_TRUE(consent_file({}).is_absolute());
+}
+
 TEST(JacketProfileFile, IsAsConfiguredElseTheInstalledOne) {
   JacketConfig config;
   EXPECT_TRUE(jacket_profile_file(config).is_absolute());

@@ -61,6 +61,26 @@ TEST(StatusText, ShowsPartsItDoesNotKnow) {
   EXPECT_THAT(text, HasSubstr("mood         calm\n"));
 }
 
+TEST(StatusText, TellsOfEveryHeaterInALineOfItsOwn) {
+  const std::string text = status_text(
+      {{"jacket",
+        {{"name", "coat"},
+         {"supply_v", 4.9},
+         {"heaters", {{{"celsius", 36.54}, {"fault", "none"}}, {{"celsius", nullptr}, {"fault", "sensor open"}}}}}}});
+  EXPECT_THAT(text, HasSubstr("  jacket       coat, supply_v 4.9\n"
+                              "  heater 0     36.5 C\n"
+                              "  heater 1     no reading, sensor open\n"));
+}
+
+TEST(StatusText, SaysWhyNothingIsFeltAndHowEachHeaterIs) {
+  const std::string text =
+      status_text({{"consent", {{"name", "paused"}, {"why", "until 15:30"}, {"muted_boxes", {8}}}},
+                   {"heaters", {{{"name", "left"}, {"state", "ready"}}, {{"name", "right"}, {"state", "fault"}}}}});
+  EXPECT_THAT(text, HasSubstr("consent      paused: until 15:30, muted_boxes [8]\n"));
+  EXPECT_THAT(text, HasSubstr("heaters      left, state ready\n"));
+  EXPECT_THAT(text, HasSubstr("heaters      right, state fault\n"));
+}
+
 TEST(StatusText, LetsNoControlCharacterThrough) {
   const std::string text = status_text({{"peer", {{"connected", false}, {"reason", "\x1b]0;x\x07\n"}}}});
   EXPECT_THAT(text, Not(HasSubstr("\x1b")));

@@ -212,6 +212,21 @@ TEST(FirmwareConversation, IsResetByTheWatchdogWhenItHangsAndSaysSo) {
   EXPECT_EQ(caps->reset_cause, 0x08);
 }
 
+TEST(FirmwareConversation, IsResetByTheWatchdogWhenOnlyItsTimerStops) {
+  VirtualJacket jacket;
+  jacket.hello();
+  jacket.say(FrameType::set, {4, full, 25});
+  jacket.chip.run_ms(10);
+  jacket.chip.stop_timer();
+  for (int i = 0; i < 20; ++i) {
+    jacket.say(FrameType::keep);  // keeps the main loop awake
+    jacket.chip.run_ms(10);
+  }
+  EXPECT_EQ(jacket.chip.resets(), 1U);
+  EXPECT_FALSE(jacket.anything_high());
+  EXPECT_FALSE(jacket.chip.armed_led());
+}
+
 TEST(FirmwareConversation, DoesNotResetWhileItWorks) {
   VirtualJacket jacket;
   jacket.hello();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <filesystem>
 #include <optional>
 #include <set>
 #include <vector>
@@ -13,7 +14,8 @@ namespace telehug {
 // The real firmware in virtual time, spoken to frame by frame.
 class VirtualJacket {
  public:
-  VirtualJacket() {
+  explicit VirtualJacket(const BoardWiring& board = board_wirings().front())
+      : chip(std::filesystem::path(TELEHUG_FIRMWARE_FOLDER) / board.elf, board) {
     chip.on_edge([this](const PinEdge& edge) { edges.push_back(edge); });
     chip.run_ms(5);
   }
@@ -104,13 +106,13 @@ class VirtualJacket {
   }
 
   [[nodiscard]] bool anything_high() const {
-    for (std::uint8_t channel = 0; channel < jacket_channels; ++channel) {
+    for (std::uint8_t channel = 0; channel < jacket_outputs; ++channel) {
       if (chip.is_high(channel)) return true;
     }
     return false;
   }
 
-  SimulatedJacket chip{TELEHUG_FIRMWARE_ELF};
+  SimulatedJacket chip;
   std::vector<PinEdge> edges;
   FrameDecoder decoder;
   std::uint8_t sequence = 0;

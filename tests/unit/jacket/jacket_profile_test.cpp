@@ -214,7 +214,7 @@ TEST_F(JacketProfileTest, loads_every_shipped_jacket) {
     EXPECT_TRUE(loaded) << loaded.error().message;
     ++jackets;
   }
-  EXPECT_EQ(jackets, 3);
+  EXPECT_EQ(jackets, 4);
 }
 
 TEST_F(JacketProfileTest, says_where_a_file_is_no_toml) {

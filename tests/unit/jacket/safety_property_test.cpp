@@ -7,12 +7,14 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <random>
 
 #include "doubles/fake_jacket_link.hpp"
 #include "rendering/jacket_renderer.hpp"
 #include "safety/safety_stage.hpp"
 #include "unit/jacket/jacket_builders.hpp"
+#include "unit/safety/power_log.hpp"
 
 namespace telehug {
 namespace {
@@ -45,7 +47,7 @@ class Adversary {
   Drives drives(Timestamp now) {
     Drives made;
     for (int n = whole(0, one_in(10) ? 32 : 4); n > 0; --n) {
-      made.push_back({static_cast<std::uint8_t>(one_in(8) ? whole(0, 255) : whole(1, 8)), strength(), end(now)});
+      made.push_back({static_cast<std::uint8_t>(one_in(8) ? whole(0, 255) : whole(1, 10)), strength(), end(now)});
     }
     return made;
   }
@@ -65,6 +67,28 @@ class Adversary {
     static constexpr std::int64_t odd[]{std::numeric_limits<std::int64_t>::min(), 0,
                                         std::numeric_limits<std::int64_t>::max()};
     return one_in(10) ? odd[whole(0, 2)] : whole(0, 1'000'000'000);
+  }
+  Consent consent(std::chrono::sys_seconds now) {
+    Consent made;
+    if (one_in(5)) made.pause = Pause{};
+    if (made.pause && one_in(2)) made.pause->until = now + std::chrono::seconds(whole(-5, 5));
+    for (int n = one_in(3) ? whole(1, 3) : 0; n > 0; --n)
+      made.quiet_hours.push_back({whole(0, minutes_of_day - 1), whole(0, minutes_of_day - 1)});
+    for (int n = one_in(2) ? whole(1, 3) : 0; n > 0; --n)
+      made.muted_actuators.set(static_cast<std::size_t>(whole(0, 10)));
+    return made;
+  }
+  std::optional<JacketTelemetry> telemetry(Timestamp now) {
+    static constexpr double odd[]{std::numeric_limits<double>::quiet_NaN(), -1e300, 41, 1e300};
+    if (one_in(10)) return std::nullopt;
+    JacketTelemetry told;
+    told.heard = one_in(6) ? now + std::chrono::milliseconds(whole(-5000, 5000)) : now;
+    for (int n = one_in(8) ? whole(0, 2) : 2; n > 0; --n) {
+      auto& heater = told.heaters.emplace_back();
+      if (!one_in(10)) heater.celsius = one_in(10) ? odd[whole(0, 3)] : real(15, 40);
+      if (one_in(10)) heater.fault = static_cast<protocol::HeaterFault>(whole(0, 6));
+    }
+    return told;
   }
   TouchEvent event() {
     TouchEvent made;
@@ -96,15 +120,22 @@ JacketProfile random_profile(Adversary& adversary) {
     made.min_strength = adversary.real(0, made.max_strength);
     made.gamma = adversary.real(0.2, 5);
     made.kick = std::chrono::milliseconds(adversary.whole(0, 100));
-    made.enabled = !adversary.one_in(8);
+    made.enabled = !adversary.one_in(10);
+    if (adversary.one_in(2)) made.max_duty = adversary.real(0.01, 1);
+    if (!adversary.one_in(4)) made.current_ma = adversary.real(0, 120);
     profile.actuators.push_back(made);
   }
+  for (int heater = 0; heater < 2; ++heater) {
+    Actuator made = motor(static_cast<std::uint8_t>(9 + heater), {}, {});
+    made.kind = ActuatorKind::heater;
+    made.channel = static_cast<std::uint8_t>(heater);
+    made.max_celsius = adversary.real(32, 45);
+    made.enabled = !adversary.one_in(10);
+    profile.actuators.push_back(made);
+  }
+  if (adversary.one_in(2)) profile.supply_ma = adversary.real(1, 120);
+  profile.duty_window = std::chrono::milliseconds(adversary.whole(1, 3000));
   return profile;
-}
-
-// What the microcontroller makes of an intensity (passive_side/firmware/motors.cpp): the nearest of 31 steps.
-double power_at_pin(std::uint8_t intensity) {
-  return (intensity * 31 + 127) / 255 / 31.0;
 }
 
 // A daemon that lives through everything that can happen to it, on a fake clock, checked at every step.
@@ -114,17 +145,23 @@ class HauntedJacket {
       : adversary_(seed),
         profile_(random_profile(adversary_)),
         limits_{adversary_.real(0, 1), std::chrono::milliseconds(adversary_.whole(1, 2000)),
-                std::chrono::milliseconds(adversary_.whole(1, 250))},
+                std::chrono::milliseconds(adversary_.whole(1, 250)), adversary_.real(30, 40)},
         safety_(std::make_unique<FakeJacketLink>(jacket_), profile_, limits_) {
     for (const Actuator& actuator : profile_.actuators) {
-      const double most = std::min(actuator.max_strength, limits_.max_strength);
-      most_.at(actuator.channel) = most;
+      if (actuator.kind == ActuatorKind::heater) continue;
+      by_channel_.at(actuator.channel) = &actuator;
+      most_.at(actuator.channel) = std::min(actuator.max_strength, limits_.max_strength);
     }
   }
 
   // One random happening, at most 20 ms after the last, then a check.
   void step() {
     move_clock();
+    if (adversary_.one_in(5)) jacket_.status.telemetry = adversary_.telemetry(now_);
+    if (adversary_.one_in(40)) consent_ = adversary_.consent(wall_);
+    if (adversary_.one_in(40)) now_min_ = adversary_.whole(0, minutes_of_day - 1);
+    safety_.permit(permission_at(consent_, wall_, now_min_), now_);
+    jacket_.status.heater_count = adversary_.one_in(20) ? 0 : 2;
     switch (adversary_.whole(0, 11)) {
       case 0:
         jacket_.next_state = static_cast<LinkState>(adversary_.whole(0, 2));
@@ -170,23 +207,46 @@ class HauntedJacket {
     }
     EXPECT_THAT(jacket_.running(now_), ::testing::IsEmpty());
     EXPECT_THAT(safety_.running(), ::testing::IsEmpty());
+    for (std::size_t heater = 0; heater < 2; ++heater)
+      EXPECT_EQ(jacket_.celsius(heater, now_), 0);
   }
 
   // The daemon is killed: nothing reaches the jacket any more.
   void daemon_freezes() {
     now_ += 250ms;
+    check_frames();
+    check_duty();
     EXPECT_THAT(jacket_.running(now_), ::testing::IsEmpty());
+    for (std::size_t heater = 0; heater < 2; ++heater)
+      EXPECT_EQ(jacket_.celsius(heater, now_), 0);
   }
+
+  [[nodiscard]] bool drove() const {
+    return std::ranges::any_of(jacket_.frames, [](const FakeJacket::Frame& frame) {
+      return std::ranges::any_of(frame.commands, [](const MotorCommand& command) { return command.intensity > 0; });
+    });
+  }
+  [[nodiscard]] bool heated() const {
+    return std::ranges::any_of(jacket_.heat_frames, [](const FakeJacket::HeatFrame& frame) {
+      return std::ranges::any_of(frame.commands, [](const HeaterCommand& command) { return command.celsius > 0; });
+    });
+  }
+  [[nodiscard]] const SafetyCounters& counters() const { return safety_.counters(); }
 
  private:
   void move_clock() {
     now_ += std::chrono::milliseconds(adversary_.whole(0, 20));
+    if (adversary_.one_in(40)) wall_ += std::chrono::seconds(adversary_.whole(-20, 20));
     if (!adversary_.one_in(200)) return;
     const Duration jump = std::chrono::milliseconds(adversary_.whole(-5000, 5000));
     now_ += jump;
     for (auto& motor : jacket_.motors)
-      motor.end += jump;                            // the microcontroller's own clock has not jumped
-    if (jump < 0ms) heartbeats_.fill(Timestamp{});  // whatever was heard before says nothing now
+      motor.end += jump;  // the microcontroller's own clock has not jumped
+    for (auto& heater : jacket_.heaters)
+      heater.end += jump;
+    if (jump >= 0ms) return;
+    heartbeats_.fill(Timestamp{});  // whatever was heard before says nothing now
+    power_.forget();
   }
 
   void heartbeat() {
@@ -216,6 +276,8 @@ class HauntedJacket {
     const SafetyVerdict verdict = safety_.apply(adversary_.sender(), some_drives(), now_);
     if (safety_.stopped()) {
       EXPECT_EQ(verdict.outcome, FeltOutcome::stopped);
+    } else if (safety_.permission().refusal) {
+      EXPECT_EQ(verdict.outcome, *safety_.permission().refusal);
     }
   }
 
@@ -227,14 +289,80 @@ class HauntedJacket {
   }
 
   void check_frames() {
-    for (; checked_ < jacket_.frames.size(); ++checked_)
+    for (; checked_ < jacket_.frames.size(); ++checked_) {
+      take_stops(checked_);
       check_frame(jacket_.frames[checked_]);
+      power_.command(jacket_.frames[checked_]);
+      check_current(jacket_.frames[checked_].time);
+    }
+    take_stops(checked_);
+    for (; checked_heat_ < jacket_.heat_frames.size(); ++checked_heat_)
+      check_heat(jacket_.heat_frames[checked_heat_]);
+  }
+
+  // Those that left after so many frames.
+  void take_stops(std::size_t frames) {
+    for (; taken_stops_ < jacket_.stop_log.size() && jacket_.stop_log[taken_stops_].after_frames <= frames;
+         ++taken_stops_)
+      power_.stop(jacket_.stop_log[taken_stops_].time);
+  }
+
+  void check_current(Timestamp time) {
+    if (profile_.supply_ma <= 0) return;
+    double total_ma = 0;
+    for (std::size_t channel = 0; channel < by_channel_.size(); ++channel) {
+      if (by_channel_.at(channel) != nullptr) {
+        total_ma += power_.power(channel, time) * by_channel_.at(channel)->current_ma;
+      }
+    }
+    EXPECT_LE(total_ma, profile_.supply_ma + 1e-6);
+  }
+
+  void check_duty() {
+    for (std::size_t channel = 0; channel < by_channel_.size(); ++channel) {
+      const Actuator* actuator = by_channel_.at(channel);
+      if (actuator == nullptr) continue;
+      const double window_s = std::chrono::duration<double>(profile_.duty_window).count();
+      EXPECT_LE(power_.used_s(channel, profile_.duty_window, now_),
+                actuator->max_duty * window_s * actuator->max_strength + 1e-6);
+    }
+  }
+
+  [[nodiscard]] bool silenced(const Actuator& actuator) const {
+    return !actuator.enabled || safety_.permission().muted_actuators.test(actuator.id);
+  }
+
+  void check_heat(const FakeJacket::HeatFrame& frame) {
+    for (const HeaterCommand& command : frame.commands) {
+      ASSERT_LT(command.heater, 2);
+      EXPECT_GE(command.duration, 0ms);
+      EXPECT_LE(command.duration, 250ms);
+      EXPECT_LE(command.duration, limits_.longest_drive);
+      if (command.celsius == 0) continue;
+      const Actuator& actuator = profile_.actuators.at(8U + command.heater);
+      EXPECT_GE(command.celsius, least_celsius);
+      EXPECT_LE(command.celsius, std::min({40.0, actuator.max_celsius, limits_.max_celsius}));
+      EXPECT_LE(frame.time + command.duration, vouched_until());
+      EXPECT_FALSE(safety_.stopped());
+      EXPECT_FALSE(safety_.permission().refusal);
+      EXPECT_FALSE(silenced(actuator));
+      const auto& telemetry = jacket_.status.telemetry;
+      ASSERT_TRUE(telemetry);
+      EXPECT_LE(frame.time - telemetry->heard, 2s);
+      ASSERT_LT(command.heater, telemetry->heaters.size());
+      const auto& told = telemetry->heaters[command.heater];
+      EXPECT_EQ(told.fault, protocol::HeaterFault::none);
+      ASSERT_TRUE(told.celsius);
+      EXPECT_LT(*told.celsius, 41);
+    }
   }
 
   void check() {
     check_frames();
+    check_duty();
     for (const std::uint8_t id : safety_.running()) {
       EXPECT_FALSE(safety_.stopped()) << "actuator " << int{id};
+      EXPECT_FALSE(safety_.permission().refusal);
       EXPECT_EQ(jacket_.status.state, LinkState::armed);
       EXPECT_LT(now_, vouched_until());
     }
@@ -255,6 +383,8 @@ class HauntedJacket {
       EXPECT_GT(command.duration, 0ms);
       EXPECT_LE(frame.time + command.duration, vouched_until()) << "outlives what the senders' heartbeats vouch for";
       EXPECT_FALSE(safety_.stopped());
+      EXPECT_FALSE(safety_.permission().refusal);
+      EXPECT_FALSE(silenced(*by_channel_.at(command.channel)));
     }
   }
 
@@ -264,25 +394,45 @@ class HauntedJacket {
   SafetyLimits limits_;
   SafetyStage safety_;
   JacketRenderer renderer_{profile_, std::chrono::milliseconds(adversary_.whole(-10, 1000))};
+  Consent consent_;
+  std::chrono::sys_seconds wall_{std::chrono::hours(500'000)};
+  int now_min_ = 0;
+  PowerLog power_;
+  std::array<const Actuator*, 16> by_channel_{};
   std::array<double, 16> most_{};
   Timestamp now_ = from_ns(100'000'000'000);
   std::array<Timestamp, max_senders> heartbeats_{};
   std::size_t checked_ = 0;
+  std::size_t checked_heat_ = 0;
+  std::size_t taken_stops_ = 0;
 };
 
 TEST(SafetyStageWithAnyInput, stays_within_every_limit_and_is_off_when_the_sender_dies) {
-  for (std::uint32_t seed = 1; seed <= 300; ++seed) {
+  int drove = 0;
+  int heated = 0;
+  int tired = 0;
+  int short_of_current = 0;
+  for (std::uint32_t seed = 1; seed <= 1500; ++seed) {
     SCOPED_TRACE(seed);
     HauntedJacket haunted(seed);
     for (int step = 0; step < 400; ++step)
       haunted.step();
     haunted.sender_dies();
     if (::testing::Test::HasFailure()) return;
+    drove += haunted.drove() ? 1 : 0;
+    heated += haunted.heated() ? 1 : 0;
+    tired += haunted.counters().limited_by_duty > 0 ? 1 : 0;
+    short_of_current += haunted.counters().limited_by_current > 0 ? 1 : 0;
   }
+  // It has been tried, not just avoided.
+  EXPECT_GT(drove, 1000);
+  EXPECT_GT(heated, 300);
+  EXPECT_GT(tired, 300);
+  EXPECT_GT(short_of_current, 200);
 }
 
 TEST(SafetyStageWithAnyInput, leaves_a_jacket_that_is_silent_250_ms_after_the_daemon_dies) {
-  for (std::uint32_t seed = 1001; seed <= 1300; ++seed) {
+  for (std::uint32_t seed = 10001; seed <= 11500; ++seed) {
     SCOPED_TRACE(seed);
     HauntedJacket haunted(seed);
     for (int step = 0; step < 200; ++step)

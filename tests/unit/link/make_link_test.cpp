@@ -21,10 +21,10 @@ std::filesystem::path temporary_file() {
 }
 
 TEST(MakeLink, SaysWhatItTakesWhenASpecNamesNoJacket) {
-  for (const char* spec : {"", "serial", "serial:", "record:", "bluetooth", "simulated:x"}) {
+  for (const char* spec : {"", "serial", "serial:", "record:", "bluetooth", "simulated:x", "rfcomm:", "rfcomm:00:11:22:33:44", "rfcomm:00:11:22:33:44:55/0"}) {
     const auto link = make_link(spec);
     ASSERT_FALSE(link) << spec;
-    EXPECT_THAT(link.error().message, HasSubstr("serial:PATH, simulated or record:FILE")) << spec;
+    EXPECT_THAT(link.error().message, HasSubstr("serial:PATH, rfcomm:ADDRESS, simulated or record:FILE")) << spec;
   }
 }
 
@@ -38,6 +38,27 @@ TEST(MakeLink, MakesASerialLinkThatTellsWhyItsPortDoesNotOpen) {
   EXPECT_THAT((*link)->status().problem, HasSubstr("plug the jacket in"));
 }
 
+TEST(MakeLink, MakesABluetoothLink) {
+  const auto link = make_link("rfcomm:00:11:22:33:44:55/3");
+  ASSERT_TRUE(link);
+  EXPECT_EQ((*link)->status().device, "00:11:22:33:44:55");
+  EXPECT_EQ((*link)->status().state, LinkState::absent);
+}
+
+TEST(MakeLink, LooksForTheOnlySerialDevice) {
+  const auto link = make_link("serial:auto");
+  ASSERT_TRUE(link);
+  EXPECT_EQ((*link)->status().device, "serial:auto");
+}
+
+TEST(MakeLink, SpeaksAsTheProfileSays) {
+  EXPECT_TRUE((*make_link("serial:/dev/null"))->status().answers);
+  LinkOptions options;
+  options.protocol = LinkProtocol::legacy;
+  EXPECT_FALSE((*make_link("serial:/dev/null", options))->status().answers);
+  EXPECT_FALSE((*make_link("rfcomm:00:11:22:33:44:55/3", options))->status().answers);
+}
+
 TEST(MakeLink, TellsThatAFileIsNoSerialPort) {
   const FakeClock clock;
   auto link = make_link("serial:/dev/null");
@@ -48,7 +69,7 @@ TEST(MakeLink, TellsThatAFileIsNoSerialPort) {
 
 TEST(MakeLink, TellsThatASpeedIsNone) {
   const FakeClock clock;
-  auto link = make_link("serial:/dev/null", {.baud = 12345, .simulator = {}});
+  auto link = make_link("serial:/dev/null", {.baud = 12345, .protocol = LinkProtocol::telehug, .simulator = {}});
   ASSERT_TRUE(link);
   (*link)->poll(clock.now());
   EXPECT_THAT((*link)->status().problem, HasSubstr("12345 baud"));
@@ -88,6 +109,7 @@ TEST(RecordingLink, WritesEveryCommandWithItsTime) {
   EXPECT_TRUE((*link)->send({{3, 255, 150ms}, {7, 9, 20ms}}, clock.now()));
   clock.advance(1ms);
   EXPECT_TRUE((*link)->send({}, clock.now()));
+  EXPECT_TRUE((*link)->heat({{1, 38.5, 150ms}}, clock.now()));
   (*link)->stop_all(clock.now());
   std::stringstream content;
   content << std::ifstream(file).rdbuf();
@@ -97,6 +119,7 @@ TEST(RecordingLink, WritesEveryCommandWithItsTime) {
             "1000000000,set,3,255,150.000\n"
             "1000000000,set,7,9,20.000\n"
             "1001000000,off,,,\n"
+            "1001000000,heat,1,38.5,150.000\n"
             "1001000000,stop,,,\n");
 }
 

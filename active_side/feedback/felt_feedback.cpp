@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "feedback/felt_feedback.hpp"
+
+#include "config/places.hpp"
+#include "feedback/felt_pulse.hpp"
+#include "jacket/load_jacket_profile.hpp"
+#include "link/make_link.hpp"
+
+namespace telehug {
+namespace {
+
+constexpr Duration round = 10ms;  // the safety stage wants to be served this often
+constexpr SenderNumber wearer = 0;
+
+}  // namespace
+
+Result<std::unique_ptr<FeltFeedback>> FeltFeedback::make(const FeedbackConfig& config, const Clock& clock) {
+  if (config.link.empty()) return std::unique_ptr<FeltFeedback>();
+  auto profile = load_jacket_profile(installed_jacket_file(config.profile));
+  if (!profile) return profile.error();
+  LinkOptions options;
+  options.baud = static_cast<unsigned>(profile->baud);
+  auto link = make_link(config.link, options);
+  if (!link) return link.error();
+  return std::make_unique<FeltFeedback>(*std::move(profile), *std::move(link), config.strength, clock);
+}
+
+FeltFeedback::FeltFeedback(JacketProfile profile, std::unique_ptr<JacketLink> link, double strength, const Clock& clock)
+    : clock_(clock),
+      profile_(std::move(profile)),
+      strength_(strength),
+      safety_(std::move(link), profile_, {}),
+      problem_("it is being connected"),
+      thread_([this] { loop(); }) {}
+
+FeltFeedback::~FeltFeedback() {
+  ending_ = true;
+  thread_.join();
+}
+
+std::string FeltFeedback::problem() const {
+  const std::lock_guard lock(mutex_);
+  return problem_;
+}
+
+void FeltFeedback::loop() {
+  for (Timestamp next = clock_.now(); !ending_; next += round) {
+    serve(clock_.now());
+    const Duration left = next + round - clock_.now();
+    if (left > 0ms) {
+      std::this_thread::sleep_for(left);
+    } else {
+      next = clock_.now();  // rounds that were missed are not made up for
+    }
+  }
+  safety_.stop("telehug-active ends", clock_.now());
+}
+
+void FeltFeedback::serve(Timestamp now) {
+  if (stopped_ && !safety_.stopped()) safety_.stop("stopped", now);
+  if (!stopped_ && safety_.stopped()) safety_.resume();
+  answers_.consume_all([&](const Felt& answer) {
+    const auto pulse = felt_pulse(answer, profile_, strength_, now);
+    if (!pulse) return;
+    // The answer itself is the sign of life that vouches for its pulse.
+    safety_.on_heartbeat(wearer, now);
+    safety_.apply(wearer, *pulse, now);
+  });
+  safety_.tick(now);
+  const LinkStatus& link = safety_.link_status();
+  const std::lock_guard lock(mutex_);
+  if (link.state == LinkState::armed) {
+    problem_.clear();
+  } else {
+    problem_ = link.device + ": " + link.problem;
+  }
+}
+
+}  // namespace telehug

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The safety stage and what the wearer wants.
+#include <gmock/gmock.h>
+
+#include "unit/jacket/safety_stage_fixture.hpp"
+
+namespace telehug {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::IsEmpty;
+
+class SafetyStageWithConsent : public SafetyStageTest {
+ protected:
+  void refuse(FeltOutcome why) {
+    Permission permission;
+    permission.refusal = why;
+    safety->permit(permission, now);
+  }
+  void mute(std::uint8_t actuator) {
+    Permission permission;
+    permission.muted_actuators.set(actuator);
+    safety->permit(permission, now);
+  }
+};
+
+TEST_F(SafetyStageWithConsent, ends_what_runs_as_soon_as_it_is_paused) {
+  drive(1);
+  refuse(FeltOutcome::paused);
+  EXPECT_THAT(running(), IsEmpty());
+  EXPECT_THAT(safety->running(), IsEmpty());
+  EXPECT_EQ(safety->counters().off_consent, 1U);
+}
+
+TEST_F(SafetyStageWithConsent, drives_nothing_while_paused_or_quiet_and_says_which) {
+  refuse(FeltOutcome::paused);
+  EXPECT_EQ(drive(1), FeltOutcome::paused);
+  refuse(FeltOutcome::quiet_hours);
+  EXPECT_EQ(drive(1), FeltOutcome::quiet_hours);
+  live(500ms);
+  EXPECT_THAT(jacket.frames, IsEmpty());
+  EXPECT_EQ(safety->counters().refused_paused, 1U);
+  EXPECT_EQ(safety->counters().refused_quiet_hours, 1U);
+}
+
+TEST_F(SafetyStageWithConsent, takes_up_nothing_by_itself_when_a_pause_ends) {
+  start({.longest_drive = 2s});
+  drive(1, 1, 2s);
+  refuse(FeltOutcome::paused);
+  live(100ms);
+  safety->permit({}, now);
+  live(100ms);
+  EXPECT_THAT(running(), IsEmpty());
+  EXPECT_EQ(drive(1), FeltOutcome::driven);
+}
+
+TEST_F(SafetyStageWithConsent, is_stopped_beside_being_paused) {
+  safety->stop("enough", now);
+  refuse(FeltOutcome::paused);
+  EXPECT_EQ(drive(1), FeltOutcome::stopped);
+  safety->resume();
+  EXPECT_EQ(drive(1), FeltOutcome::paused) << "a resume ends no pause";
+  safety->stop("enough", now);
+  safety->permit({}, now);
+  EXPECT_EQ(drive(1), FeltOutcome::stopped) << "and the end of a pause no stop";
+}
+
+TEST_F(SafetyStageWithConsent, says_that_it_is_paused_though_no_jacket_answers) {
+  jacket.next_state = LinkState::absent;
+  live(10ms);
+  refuse(FeltOutcome::paused);
+  EXPECT_EQ(drive(1), FeltOutcome::paused);
+}
+
+TEST_F(SafetyStageWithConsent, drives_no_muted_actuator_and_ends_it_at_once) {
+  start({.longest_drive = 2s});
+  drive(1, 1, 2s);
+  drive(3, 1, 2s);
+  mute(1);
+  EXPECT_THAT(running(), IsEmpty());
+  EXPECT_EQ(drive(1), FeltOutcome::muted);
+  EXPECT_EQ(drive(3), FeltOutcome::driven);
+  EXPECT_THAT(running(), ElementsAre(2));
+}
+
+TEST_F(SafetyStageWithConsent, tells_for_each_contact_whether_it_was_muted_or_limited) {
+  start({.max_strength = 0.1});
+  mute(1);
+  const SafetyVerdict verdict = safety->apply(0, {{1, 1, now + 100ms}, {2, 1, now + 100ms}, {3, 1, now + 100ms}}, now);
+  const std::uint8_t muted[]{1};
+  const std::uint8_t limited[]{2};
+  const std::uint8_t neither[]{1, 2};
+  const std::uint8_t felt[]{1, 3};
+  EXPECT_EQ(verdict.outcome_at(muted), FeltOutcome::muted);
+  EXPECT_EQ(verdict.outcome_at(limited), FeltOutcome::limited);
+  EXPECT_EQ(verdict.outcome_at(neither), FeltOutcome::limited);
+  EXPECT_EQ(verdict.outcome_at(felt), FeltOutcome::driven);
+  EXPECT_EQ(safety->apply(0, {{1, 1, now + 100ms}, {2, 1, now + 100ms}}, now).outcome, FeltOutcome::limited);
+}
+
+TEST_F(SafetyStageWithConsent, goes_on_with_what_runs_if_the_wearer_wants_nothing_else) {
+  drive(1);
+  safety->permit({}, now);
+  EXPECT_THAT(running(), ElementsAre(0));
+}
+
+}  // namespace
+}  // namespace telehug
