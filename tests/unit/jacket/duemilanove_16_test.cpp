@@ -39,8 +39,9 @@ std::string text(const MotorCommands& commands) {
 }
 
 // The commands of the last frame that a single touch has caused after this time.
-std::string commands_for(const Contact& contact, Duration after = {}) {
-  const JacketProfile profile = shipped();
+std::string commands_for(const Contact& contact, Duration after = {}, Rendering rendering = Rendering::boxes) {
+  JacketProfile profile = shipped();
+  profile.rendering = rendering;
   FakeJacket jacket;
   SafetyStage safety(std::make_unique<FakeJacketLink>(jacket), profile, {});
   Timestamp now = from_ns(1'000'000'000);
@@ -67,6 +68,33 @@ TEST(Duemilanove16, drives_exactly_the_motors_of_each_box) {
   };
   for (const auto& [box, commands] : golden)
     EXPECT_EQ(commands_for(contact_in(box)), commands) << "box " << box;
+}
+
+TEST(Duemilanove16, drives_by_places_the_motors_about_the_middle_of_each_box) {
+  const std::map<int, std::string> golden{
+      {1, "0=197 200ms"},
+      {2, "0=123 160ms, 1=189 160ms"},
+      {3, "1=165 160ms, 2=165 160ms"},
+      {4, "2=189 160ms, 3=123 160ms"},
+      {5, "3=197 200ms"},
+      {6, "0=123 160ms, 4=189 160ms"},
+      {7, "5=197 200ms"},
+      {8, "6=197 200ms"},
+      {9, "7=197 200ms"},
+      {10, "3=123 160ms, 8=189 160ms"},
+      {11, "9=197 200ms"},
+      {12, "10=197 200ms"},
+      {13, "11=197 200ms"},
+      {14, "12=197 200ms"},
+      {15, "13=197 200ms"},
+      {16, "9=181 160ms, 14=156 160ms"},
+      {17, "9=140 160ms, 14=189 160ms"},
+      {18, "14=165 160ms, 15=165 160ms"},
+      {19, "13=140 160ms, 15=189 160ms"},
+      {20, "13=181 160ms, 15=156 160ms"},
+  };
+  for (const auto& [box, commands] : golden)
+    EXPECT_EQ(commands_for(contact_in(box), started, Rendering::places), commands) << "box " << box;
 }
 
 TEST(Duemilanove16, sends_a_touch_below_its_last_row_to_the_nearest_motor) {

@@ -30,7 +30,8 @@ inline JacketProfile profile_of(std::vector<Actuator> actuators, Uncovered uncov
 
 // Middle of a box of the standard grid.
 inline BodyPoint middle_of(int box) {
-  return {((box - 1) % 5 - 2) * 0.5, ((box - 1) / 5) * 0.5 + 0.25};
+  const int row = (box - 1) / 5;
+  return {((box - 1) % 5 - 2) * 0.5, row * 0.5 + 0.25};
 }
 
 inline Contact contact_in(int box, std::uint32_t id = 1, Phase phase = Phase::down) {
