@@ -226,7 +226,7 @@ Spot JacketRenderer::spot_of(const Contact& contact, BodyPoint place) const {
   if (profile_.rendering == Rendering::boxes) return motors_of_box(contact, profile_);
   Spot spot = seen_.at(place);
   if (contact.gesture != Gesture::hug || seen_side_ == BodySide::back) return spot;
-  for (const Share& share : back_.at(place))
+  for (const SpotShare& share : back_.at(place))
     spot.push_back(share);
   return spot;
 }
@@ -234,7 +234,7 @@ Spot JacketRenderer::spot_of(const Contact& contact, BodyPoint place) const {
 ActuatorIds JacketRenderer::motors_at(const Contact& contact) const {
   ActuatorIds ids;
   Spot spot = spot_of(contact, contact.body);
-  std::ranges::sort(spot, {}, &Share::index);
+  std::ranges::sort(spot, {}, &SpotShare::index);
   for (const auto& [index, amplitude] : spot) {
     const bool felt = amplitude >= least_felt && ids.size() < ids.capacity();
     if (felt) ids.push_back(profile_.actuators[index].id);

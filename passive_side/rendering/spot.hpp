@@ -9,12 +9,12 @@
 namespace telehug {
 
 // What one actuator has of a touch.
-struct Share {
+struct SpotShare {
   std::size_t index = 0;  // in the profile's `actuators`
   double amplitude = 0;   // above 0, up to 1: of the touch's strength
 };
 
 // Where a touch is felt; each actuator at most once.
-using Spot = boost::container::static_vector<Share, max_actuators>;
+using Spot = boost::container::static_vector<SpotShare, max_actuators>;
 
 }  // namespace telehug

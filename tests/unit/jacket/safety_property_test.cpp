@@ -235,6 +235,7 @@ class HauntedJacket {
 
  private:
   void move_clock() {
+    const Timestamp before = now_;
     now_ += std::chrono::milliseconds(adversary_.whole(0, 20));
     if (adversary_.one_in(40)) wall_ += std::chrono::seconds(adversary_.whole(-20, 20));
     if (!adversary_.one_in(200)) return;
@@ -244,7 +245,7 @@ class HauntedJacket {
       motor.end += jump;  // the microcontroller's own clock has not jumped
     for (auto& heater : jacket_.heaters)
       heater.end += jump;
-    if (jump >= 0ms) return;
+    if (now_ >= before) return;
     heartbeats_.fill(Timestamp{});  // whatever was heard before says nothing now
     power_.forget();
   }

@@ -30,7 +30,7 @@ JacketProfile chest_and_belly(Uncovered uncovered = Uncovered::none) {
 
 std::vector<int> ids_of(const Spot& spot, const JacketProfile& profile) {
   std::vector<int> ids;
-  for (const Share& share : spot)
+  for (const SpotShare& share : spot)
     ids.push_back(profile.actuators[share.index].id);
   return ids;
 }

@@ -27,7 +27,7 @@ MATCHER_P2(IsShare, index, amplitude, "") {
 
 double energy(const Spot& spot) {
   return std::accumulate(spot.begin(), spot.end(), 0.0,
-                         [](double sum, const Share& share) { return sum + share.amplitude * share.amplitude; });
+                         [](double sum, const SpotShare& share) { return sum + share.amplitude * share.amplitude; });
 }
 
 BodyPoint centre(const Spot& spot, const JacketProfile& profile) {
@@ -83,7 +83,7 @@ TEST(MotorMesh, feels_a_touch_between_motors_where_it_is_with_all_its_energy) {
       const BodyPoint place{across(random), down(random)};
       const Spot spot = mesh.at(place);
       EXPECT_NEAR(energy(spot), 1, 1e-9);
-      for (const Share& share : spot)
+      for (const SpotShare& share : spot)
         EXPECT_TRUE(share.amplitude > 0 && share.amplitude <= 1) << share.amplitude;
       if (!mesh.inside(place)) continue;
       ++inside;
