@@ -88,7 +88,7 @@ class IspProgrammer {
         return 5;
       case 'd':
         if (request_.size() < 4) return std::nullopt;
-        return 5 + 256U * request_[1] + request_[2];
+        return 5 + std::size_t{256} * request_[1] + request_[2];
       default:
         return 2;
     }
@@ -99,7 +99,7 @@ class IspProgrammer {
       case 'A':  // parameters: of a programmer that is no bootloader
         return {static_cast<std::uint8_t>(request[1] == 0x81 ? 1 : request[1] == 0x82 ? 18 : 2)};
       case 'U':
-        address_ = 2U * (request[1] + 256U * request[2]);
+        address_ = std::size_t{2} * (request[1] + 256U * request[2]);
         return {};
       case 'V':
         return {instruction(request[1], request[2], request[3], request[4])};
@@ -111,7 +111,7 @@ class IspProgrammer {
       }
       case 't': {
         const auto begin = chip_.flash.begin() + static_cast<std::ptrdiff_t>(address_);
-        return {begin, begin + request[1] * 256 + request[2]};
+        return {begin, begin + std::ptrdiff_t{256} * request[1] + request[2]};
       }
       case 'u':
         return {0x1E, 0x95, 0x0F};
