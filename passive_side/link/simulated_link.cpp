@@ -95,6 +95,7 @@ void SimulatedLink::poll(Timestamp now) {
 
 void SimulatedLink::start() {
   std::vector<std::string> arguments{options_.program, "--link", options_.link};
+  if (!options_.board.empty()) arguments.insert(arguments.end(), {"--board", options_.board});
   if (!options_.firmware.empty()) arguments.insert(arguments.end(), {"--firmware", options_.firmware});
   if (!options_.pins.empty()) arguments.insert(arguments.end(), {"--pins", options_.pins});
   if (options_.dies_with_this_program) arguments.emplace_back("--die-with-parent");

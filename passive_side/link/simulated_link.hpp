@@ -13,7 +13,8 @@ namespace telehug {
 
 struct SimulatorOptions {
   std::filesystem::path program;   // telehug-jacket-sim; empty: the one beside this program
-  std::filesystem::path firmware;  // empty: the simulator's default
+  std::string board;               // as the simulator's --board; empty: its default
+  std::filesystem::path firmware;  // empty: the board's
   std::filesystem::path link;      // where the simulated serial port appears; empty: a private place
   std::filesystem::path pins;      // log of the motors that start and end; empty: none
   bool dies_with_this_program = true;

@@ -16,9 +16,9 @@
 #include "integration/ctl/intel_hex.hpp"
 #include "integration/ctl/isp_programmer.hpp"
 #include "integration/ctl/simulated_board.hpp"
-#include "link/serial_link.hpp"
-#include "link/serial_port.hpp"
+#include "link/make_link.hpp"
 #include "service/exit_code.hpp"
+#include "wire/serial_port.hpp"
 
 namespace telehug {
 namespace {
@@ -94,7 +94,9 @@ TEST_F(JacketFlash, WritesTheFirmwareThroughOptibootAndTheJacketAnswers) {
   const auto content = board.flash(16384);
   EXPECT_EQ(content, as_written(firmware, content));
 
-  SerialLink link(board.port());
+  const auto made = make_link("serial:" + std::string(board.port()));
+  ASSERT_TRUE(made) << made.error().message;
+  JacketLink& link = **made;
   const SteadyClock clock;
   const Timestamp deadline = clock.now() + 20s;
   while (link.status().state != LinkState::armed && clock.now() < deadline) {
@@ -139,7 +141,7 @@ int main(void) {
 
   // How often it starts in four seconds of the chip, from when the port is opened.
   static int starts(SimulatedBoard& board) {
-    auto port = SerialPort::open(board.port(), 57600);
+    auto port = open_serial_port(board.port(), 57600);
     if (!port) throw std::runtime_error(port.error().message);
     int count = 0;
     const std::uint64_t begin_ms = board.simulated_ms();

@@ -203,9 +203,10 @@ TEST_F(JacketFaults, TheJacketIsPoweredOffAndOn) {
 }
 
 TEST_F(JacketFaults, AnotherProgramOpensThePortAndIsTold) {
-  const auto other = SerialPort::open(pair.folder / "wire", 57600);
-  ASSERT_FALSE(other);
-  EXPECT_NE(other.error().message.find("close the program that uses it"), std::string::npos) << other.error().message;
+  SerialOpener opener(pair.folder / "wire", default_baud);
+  const auto other = opener.open(SteadyClock().now());
+  ASSERT_TRUE(other && !*other);
+  EXPECT_NE(other->error().message.find("close the program that uses it"), std::string::npos) << other->error().message;
   EXPECT_TRUE(pair.felt());
 }
 
