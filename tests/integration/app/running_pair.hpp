@@ -104,6 +104,7 @@ class RunningPair {
   std::unique_ptr<ChildProcess> active;
 
  private:
+  void write_tireless_jacket() const;
   [[nodiscard]] std::vector<std::string> command(Side side, std::vector<std::string> settings) const;
 
   UniqueDomain domain_;

@@ -12,7 +12,7 @@ const Timestamp start = from_ns(1'000'000'000);
 
 TEST(SenderNumbers, AreFreeAgainWhenTheirSenderIsGoneAndNeverBeyondTheLast) {
   std::vector<SenderNumber> taken;
-  for (std::size_t i = 0; i < max_senders; ++i)
+  for (std::size_t i = 0; i < wearers_number; ++i)
     taken.push_back(free_sender_number(taken).value());
   EXPECT_FALSE(free_sender_number(taken));
   taken.erase(taken.begin() + 3);
