@@ -13,8 +13,9 @@
 
 namespace telehug {
 
-// Every published touch must be answered as driven, at just the actuators that the profile gives for its box; their
-// pins must have run while it lasted, and no others; in the end every pin must be low. Empty: all is right.
+// Every published touch must be answered as driven, at just the actuators that the profile gives for its box, or at
+// some of those about it where touches are felt at their places; their pins must have run while it lasted, and no
+// others; in the end every pin must be low. Empty: all is right.
 [[nodiscard]] std::vector<std::string> faults(const DemoRecord& record, const JacketProfile& profile);
 
 // Where the finger of a virtual rig really was: nothing if it did not touch in that frame.

@@ -53,13 +53,18 @@ RunningPair::RunningPair()
   write_tireless_jacket();
 }
 
-// The shipped jacket, but that a finger may rest on it for longer than a motor's budget lasts.
+// The shipped jacket, but that a finger may rest on it for longer than a motor's budget lasts, and that just the motors
+// of its box are felt as long as it does.
 void RunningPair::write_tireless_jacket() const {
   std::string profile = content_of(TELEHUG_SOURCE "/deploy/jackets/duemilanove-16.toml");
-  const std::string budget = "max_duty = 0.6\n";
-  const auto at = profile.find(budget);
-  if (at == std::string::npos) throw std::runtime_error("the shipped jacket's max_duty is another than was expected");
-  folder.write("tireless.toml", profile.erase(at, budget.size()));
+  const auto replace = [&profile](const std::string& what, const std::string& by) {
+    const auto at = profile.find(what);
+    if (at == std::string::npos) throw std::runtime_error("the shipped jacket has no " + what);
+    profile.replace(at, what.size(), by);
+  };
+  replace("max_duty = 0.6\n", "");
+  replace("rendering = \"places\"", "rendering = \"boxes\"");
+  folder.write("tireless.toml", profile);
 }
 
 RunningPair::~RunningPair() {

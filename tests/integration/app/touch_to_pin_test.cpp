@@ -52,7 +52,7 @@ class TouchToPin : public testing::Test {
 
   RunningPair pair;
   DemoRecord record;
-  JacketProfile profile = load_jacket_profile(TELEHUG_SOURCE "/deploy/jackets/duemilanove-16.toml").value();
+  JacketProfile profile = load_jacket_profile(pair.folder / "tireless.toml").value();
 };
 
 // A finger that slides over four boxes, slowly enough that each is felt even if a busy PC drops frames.

@@ -62,6 +62,40 @@ TEST_F(DemoVerdict, FindsATouchThatWasFeltElsewhere) {
   EXPECT_THAT(found(), ElementsAre("box 2 was felt at actuators 1,3 instead of 2,3"));
 }
 
+// Touches that are felt at their places: motor 1 lies in the middle of box 2, motor 2 beside it, motor 3 far away.
+class DemoVerdictOfPlaces : public DemoVerdict {
+ protected:
+  DemoVerdictOfPlaces() {
+    profile.rendering = Rendering::places;
+    profile.actuators[0].place = {-0.5, 0.25};
+    profile.actuators[1].place = {0, 0.25};
+    profile.actuators[2].place = {1, 0.25};
+    record.felt = {{4, "down", 2, "driven", {1}}, {4, "up", 2, "driven", {1}}};
+    record.pins = {{1010 * ms, 0, true}, {1080 * ms, 0, false}};
+  }
+};
+
+TEST_F(DemoVerdictOfPlaces, FindsNothingWrongWithSomeOfTheMotorsAboutAPlace) {
+  EXPECT_THAT(found(), IsEmpty());
+}
+
+TEST_F(DemoVerdictOfPlaces, FindsATouchThatWasFeltFarAway) {
+  record.felt[0].actuators = {1, 3};
+  EXPECT_THAT(found(), ElementsAre("box 2 was felt at actuators 1,3 instead of 1,2"));
+}
+
+TEST_F(DemoVerdictOfPlaces, FindsThatNoPinMoved) {
+  record.pins.clear();
+  EXPECT_THAT(found(), testing::SizeIs(2));
+}
+
+TEST_F(DemoVerdictOfPlaces, FindsAPinFarAwayThatMoved) {
+  record.pins.push_back({1090 * ms, 2, true});
+  record.pins.push_back({1095 * ms, 2, false});
+  EXPECT_THAT(found(), ElementsAre("the pin of channel 2 moved although no box of it was touched",
+                                   "the pin of channel 2 moved although no box of it was touched"));
+}
+
 TEST_F(DemoVerdict, FindsAPinThatDidNotMove) {
   std::erase_if(record.pins, [](const PinChange& change) { return change.channel == 2; });
   EXPECT_THAT(found(), ElementsAre("contact 4 on box 2: the pin of motor 3 did not move"));
