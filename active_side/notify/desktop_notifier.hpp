@@ -5,8 +5,8 @@
 #include <optional>
 #include <string>
 
-#include "common/clock.hpp"
 #include "bus/bus_connection.hpp"
+#include "common/clock.hpp"
 
 namespace telehug {
 

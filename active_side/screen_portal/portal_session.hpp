@@ -5,9 +5,9 @@
 #include <optional>
 #include <string>
 
+#include "bus/bus_connection.hpp"
 #include "common/clock.hpp"
 #include "screen_portal/portal_messages.hpp"
-#include "bus/bus_connection.hpp"
 
 struct pollfd;
 

@@ -9,8 +9,8 @@
 
 namespace telehug {
 
-// Those who touch one jacket are told apart by numbers, 0 to max_senders - 1: one for each connection of the daemon, and
-// the last for the wearer, who tries the jacket.
+// Those who touch one jacket are told apart by numbers, 0 to max_senders - 1: one for each connection of the daemon,
+// and the last for the wearer, who tries the jacket.
 inline constexpr std::size_t max_senders = 9;
 using SenderNumber = std::uint8_t;
 inline constexpr SenderNumber wearers_number = max_senders - 1;

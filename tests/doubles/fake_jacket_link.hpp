@@ -29,8 +29,7 @@ struct FakeJacket {
     Timestamp end;
   };
 
-  LinkStatus status{
-      .state = LinkState::armed, .device = "fake", .problem = {}, .motor_count = 16, .heater_count = 2};
+  LinkStatus status{.state = LinkState::armed, .device = "fake", .problem = {}, .motor_count = 16, .heater_count = 2};
   bool loses_frames = false;                // send() succeeds, the jacket hears nothing
   bool accepts_frames = true;               // send() fails otherwise
   LinkState next_state = LinkState::armed;  // taken over by the next poll()
