@@ -5,12 +5,21 @@
 #include <cerrno>
 #include <cstddef>
 
+// GCC defines macros, clang has features.
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#define TELEHUG_SANITIZED 1
+#elif defined(__has_feature)
+#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
+#define TELEHUG_SANITIZED 1
+#endif
+#endif
+
 namespace telehug {
 namespace {
 std::atomic<std::uint64_t> count{0};
 }
 
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#ifdef TELEHUG_SANITIZED
 bool allocations_are_counted() {
   return false;
 }
@@ -26,7 +35,7 @@ std::uint64_t allocation_count() {
 
 }  // namespace telehug
 
-#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+#ifndef TELEHUG_SANITIZED
 // The names are glibc's; operator new ends in malloc. Freeing stays glibc's own.
 extern "C" {
 void* __libc_malloc(std::size_t size);                           // NOLINT(bugprone-reserved-identifier)
