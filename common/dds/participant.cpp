@@ -154,7 +154,16 @@ std::uint64_t DdsParticipant::refusals() const {
 
 }  // namespace telehug
 
-#ifdef __SANITIZE_ADDRESS__
+// GCC defines a macro, clang has a feature.
+#if defined(__SANITIZE_ADDRESS__)
+#define TELEHUG_ADDRESS_SANITIZER 1
+#elif defined(__has_feature)
+#if __has_feature(address_sanitizer)
+#define TELEHUG_ADDRESS_SANITIZER 1
+#endif
+#endif
+
+#ifdef TELEHUG_ADDRESS_SANITIZER
 // Debian's libfastrtps 2.9.1 deletes what RTPSWriter allocated with another size than it was made with (seen in
 // ~RTPSWriter). The address sanitizer checks nothing else about sizes of deletes, so only this check is off, for every
 // program that links Fast DDS.

@@ -25,7 +25,7 @@ telehug_test(test_dds_secured KIND integration SUBJECT link
   DEPS telehug_dds telehug_pairing)
 # Fast DDS 2.9.1 leaks what it had made of a pair's files when it refuses them (seen in PKIDH::get_identity_handle and,
 # without a stack that names it, in libcrypto).
-set_tests_properties(test_dds_secured PROPERTIES ENVIRONMENT "ASAN_OPTIONS=detect_leaks=0:strict_string_checks=1:new_delete_type_mismatch=0")
+set_tests_properties(test_dds_secured PROPERTIES ENVIRONMENT "ASAN_OPTIONS=detect_leaks=0:strict_string_checks=1")
 
 # The firewall's rules are understood; checked in a network of their own, so that nothing is changed.
 add_test(NAME test_firewall_rules
