@@ -20,6 +20,7 @@ Result<std::unique_ptr<FeltFeedback>> FeltFeedback::make(const FeedbackConfig& c
   if (!profile) return profile.error();
   LinkOptions options;
   options.baud = static_cast<unsigned>(profile->baud);
+  if (profile->protocol == JacketProtocol::legacy) options.protocol = LinkProtocol::legacy;
   auto link = make_link(config.link, options);
   if (!link) return link.error();
   return std::make_unique<FeltFeedback>(*std::move(profile), *std::move(link), config.strength, clock);

@@ -63,7 +63,12 @@ void override_all(const toml::table& root, JacketProfile& profile, TomlFaults& f
   std::set<std::uint8_t> seen;
   for (std::size_t i = 0; i < list->size(); ++i)
     override_actuator(*(*list)[i].as_table(), i + 1, profile, seen, faults);
-  if (std::ranges::none_of(profile.actuators, &Actuator::enabled))
+}
+
+void override_profile(const toml::table& root, JacketProfile& profile, TomlFaults& faults) {
+  override_all(root, profile, faults);
+  const auto may_run = [](const Actuator& actuator) { return actuator.enabled && actuator.max_strength > 0; };
+  if (std::ranges::none_of(profile.actuators, may_run))
     faults.add(root.source(), "no actuator of the jacket is left; leave the jacket unplugged instead");
 }
 
@@ -72,7 +77,8 @@ void override_all(const toml::table& root, JacketProfile& profile, TomlFaults& f
 Result<JacketProfile> with_overrides(JacketProfile profile, const std::filesystem::path& file) {
   TomlFaults faults(file.string());
   const auto error =
-      read_toml(file, "file of overrides", [&](const toml::table& root) { override_all(root, profile, faults); });
+      read_toml(file, "there is no such file of the wearer's limits; correct jacket.overrides, or leave it empty",
+                [&](const toml::table& root) { override_profile(root, profile, faults); });
   if (error) return *error;
   if (!faults.none()) return faults.error();
   for (const Actuator& actuator : profile.actuators) {

@@ -119,12 +119,12 @@ const toml::table* TomlTableReader::table(std::string_view key) {
   return node->as_table();
 }
 
-std::optional<Error> read_toml(const std::filesystem::path& path, std::string_view what_it_is,
+std::optional<Error> read_toml(const std::filesystem::path& path, std::string_view if_missing,
                                const std::function<void(const toml::table&)>& read) {
   const std::string file = path.string();
   std::error_code ignored;
   if (!std::filesystem::is_regular_file(path, ignored)) {
-    return Error{fmt::format("{}: there is no such {}; see deploy/jackets for the shipped ones", file, what_it_is)};
+    return Error{fmt::format("{}: {}", file, if_missing)};
   }
   try {
     const auto text = read_text_file(path);

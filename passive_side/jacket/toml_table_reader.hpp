@@ -69,9 +69,9 @@ class TomlTableReader {
   TomlFaults& faults_;
 };
 
-// Reads `path` and calls `read` with its root. What the file is, for the sentence that says that there is none:
-// "jacket profile". Errors: no such file, not readable, not valid TOML ("FILE:LINE: ...").
-[[nodiscard]] std::optional<Error> read_toml(const std::filesystem::path& path, std::string_view what_it_is,
+// Reads `path` and calls `read` with its root. `if_missing`: the sentence if there is no such file. Errors: no such
+// file, not readable, not valid TOML ("FILE:LINE: ...").
+[[nodiscard]] std::optional<Error> read_toml(const std::filesystem::path& path, std::string_view if_missing,
                                              const std::function<void(const toml::table&)>& read);
 
 }  // namespace telehug

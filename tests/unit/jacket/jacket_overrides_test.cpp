@@ -94,6 +94,13 @@ TEST_F(JacketOverridesTest, RefuseToLeaveNothing) {
   for (const int id : {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 21, 22})
     all += "[[actuator]]\nid = " + std::to_string(id) + "\nenabled = false\n";
   EXPECT_THAT(fault(all), HasSubstr("no actuator of the jacket is left"));
+  EXPECT_THAT(fault("version = 2\nmax_strength = 0\n"), HasSubstr("no actuator of the jacket is left"));
+}
+
+TEST_F(JacketOverridesTest, SayWhatToDoWhenTheirFileIsMissing) {
+  const auto result = with_overrides({}, folder_ / "none.toml");
+  ASSERT_FALSE(result);
+  EXPECT_THAT(result.error().message, HasSubstr("correct jacket.overrides, or leave it empty"));
 }
 
 }  // namespace
