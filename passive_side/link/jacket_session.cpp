@@ -76,7 +76,7 @@ void JacketSession::receive(std::span<const std::uint8_t> bytes, Timestamp now) 
 
 void JacketSession::note_answer(Timestamp now) {
   last_heard_ = now;
-  unanswered_ = 0;
+  unanswered_since_.reset();
 }
 
 void JacketSession::on_frame(const Frame& frame, Timestamp now) {
@@ -198,7 +198,7 @@ EncodedFrame JacketSession::next_frame(Timestamp now, bool has_backlog) {
 
 EncodedFrame JacketSession::make_frame(FrameType type, const FramePayload& payload, Timestamp now) {
   ++status_.frames_sent;
-  ++unanswered_;
+  if (!unanswered_since_) unanswered_since_ = now;
   last_sent_ = now;
   return encode({type, ++sequence_, payload});
 }
@@ -241,6 +241,10 @@ bool JacketSession::wants_less_heat(Timestamp now) const {
   return false;
 }
 
+bool JacketSession::wants_no_drive() const {
+  return wanted_ && std::ranges::none_of(*wanted_, [](const Drive& drive) { return drive.intensity != 0; });
+}
+
 bool JacketSession::wants_heat() const {
   return std::ranges::any_of(wanted_heat_, [](const auto& heat) { return heat.has_value(); });
 }
@@ -251,7 +255,8 @@ bool JacketSession::heats(Timestamp now) const {
 
 // What turns something down or off goes at once; what only drives waits for its turn.
 EncodedFrame JacketSession::make_drive(Timestamp now) {
-  if (unanswered_ >= unanswered_max) return {};
+  const bool silent = unanswered_since_ && now - *unanswered_since_ >= answer_patience;
+  if (silent) return wants_no_drive() ? make_set(now) : EncodedFrame{};
   const bool lowers_drive = wants_less_drive(now) && pace_.may_lower(now);
   const bool lowers_heat = wants_less_heat(now) && pace_.may_lower(now);
   const bool turn = pace_.may_drive(now);

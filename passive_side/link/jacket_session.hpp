@@ -27,9 +27,10 @@ class JacketSession final : public Conversation {
   static constexpr Duration silence_max = 1s;
   static constexpr Duration status_interval = 500ms;
   static constexpr Duration stop_repeat = 50ms;  // until the jacket acknowledges
-  // So many frames may wait for any answer; then states wait, too. Bluetooth takes more than the jacket has read, and
-  // would hand it over late.
-  static constexpr int unanswered_max = 6;
+  // So long may frames wait for any answer; then states wait, too. A jacket that is not heard may not hear, and
+  // Bluetooth takes more than the jacket has read and would hand it over late. With drives of 200 ms (`drive_ms` as
+  // shipped) and 20 ms between two frames all is off in less than 300 ms after the jacket's last answer.
+  static constexpr Duration answer_patience = 70ms;
 
   // The first frame turns everything off.
   void connected(Timestamp now) override;
@@ -72,6 +73,7 @@ class JacketSession final : public Conversation {
   [[nodiscard]] EncodedFrame make_heat(Timestamp now);
   [[nodiscard]] bool wants_less_drive(Timestamp now) const;
   [[nodiscard]] bool wants_less_heat(Timestamp now) const;
+  [[nodiscard]] bool wants_no_drive() const;
   [[nodiscard]] bool wants_heat() const;
   [[nodiscard]] bool heats(Timestamp now) const;
   void forget_wanted();
@@ -89,7 +91,7 @@ class JacketSession final : public Conversation {
   Timestamp greeting_since_;
   Timestamp next_hello_;
   Timestamp last_heard_;
-  int unanswered_ = 0;  // frames since
+  std::optional<Timestamp> unanswered_since_;  // the first frame since then
   Timestamp last_sent_;
 
   Stop stop_ = Stop::none;

@@ -42,3 +42,13 @@ telehug_fuzzer(control SUBJECT ops DEPS telehug_ctl telehug_daemon)
 telehug_fuzzer(picture SUBJECT touch DEPS telehug_pictures)
 telehug_fuzzer(calibration SUBJECT touch DEPS active_calibration)
 telehug_fuzzer(rig_files SUBJECT touch DEPS active_capture active_finger)
+
+# The firmware's session between doubles, without the warnings that are the host's (its numbers are 8 bits wide).
+add_library(firmware_session_on_host STATIC
+  ${PROJECT_SOURCE_DIR}/passive_side/firmware/session.cpp doubles/firmware_board.cpp)
+target_include_directories(firmware_session_on_host PUBLIC ${PROJECT_SOURCE_DIR}/tests
+  PRIVATE ${PROJECT_SOURCE_DIR}/tests/doubles/avr PUBLIC ${PROJECT_SOURCE_DIR}/passive_side/firmware
+  ${PROJECT_SOURCE_DIR}/passive_side)
+target_compile_definitions(firmware_session_on_host PRIVATE TELEHUG_BOARD="boards/motors12_heaters2.hpp"
+  TELEHUG_FIRMWARE_VERSION=2)
+telehug_fuzzer(firmware_session SUBJECT jacket DEPS firmware_session_on_host passive_link)

@@ -49,6 +49,10 @@ telehug_test(test_membership KIND unit SUBJECT link
   SOURCES unit/daemon/connections_test.cpp unit/daemon/hug_request_test.cpp unit/daemon/membership_test.cpp
   DEPS telehug_daemon)
 
+telehug_test(test_link_keeper KIND unit SUBJECT link
+  SOURCES unit/daemon/link_keeper_test.cpp
+  DEPS telehug_daemon)
+
 telehug_test(test_link_figures KIND unit SUBJECT link
   SOURCES unit/bench/link_figures_test.cpp bench/homes/link_figures.cpp
   DEPS active_publish)

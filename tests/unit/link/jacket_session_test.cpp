@@ -187,7 +187,7 @@ TEST_F(JacketSessionTest, HoldsStatesBackWhileTheJacketAnswersNothing) {
     clock.advance(10ms);
   }
   const auto sets = std::ranges::count(frames, FrameType::set, &Frame::type);
-  EXPECT_EQ(sets, 5) << "behind the question for telemetry";
+  EXPECT_EQ(sets, 4) << "one every 20 ms for 70 ms";
   EXPECT_THAT(frames.back().type, AnyOf(FrameType::keep, FrameType::status)) << "the jacket is kept alive, though";
   session.stop_all();
   EXPECT_THAT(types_said(), ElementsAre(FrameType::stop_all)) << "stops always leave";
@@ -197,6 +197,17 @@ TEST_F(JacketSessionTest, HoldsStatesBackWhileTheJacketAnswersNothing) {
   const auto newest = said();
   ASSERT_EQ(newest.size(), 1U);
   EXPECT_THAT(newest[0].payload, ElementsAre(3, 250, 25));
+}
+
+TEST_F(JacketSessionTest, HoldsNoStateBackThatTurnsEverythingOff) {
+  arm();
+  send({{3, 200, 250ms}});
+  EXPECT_THAT(types_said(), ElementsAre(FrameType::set));
+  clock.advance(90ms);
+  send({{3, 100, 250ms}});
+  EXPECT_THAT(said(), IsEmpty()) << "the jacket is silent";
+  send({});
+  EXPECT_THAT(types_said(), ElementsAre(FrameType::stop_all));
 }
 
 TEST_F(JacketSessionTest, RepeatsAStopUntilItIsAcknowledged) {
