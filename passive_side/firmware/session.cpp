@@ -31,7 +31,7 @@ uint8_t buffered = 0;
 bool oversize = false;
 uint16_t frames_ok = 0;
 uint16_t frames_malformed = 0;
-int16_t last_sequence = -1;  // none before the first hello
+int16_t last_sequence = -1;  // none since the reset
 
 uint16_t crc_of(const uint8_t* bytes, uint8_t length) {
   uint16_t crc = protocol::crc_initial;
@@ -184,10 +184,17 @@ void act_on(const Frame& frame) {
   }
 }
 
+// One that a newer frame has overtaken, or that came before: what it asks for is no longer wanted.
+bool is_old(const Frame& frame) {
+  return last_sequence >= 0 && static_cast<int8_t>(frame.sequence - static_cast<uint8_t>(last_sequence)) <= 0;
+}
+
 void handle(const Frame& frame) {
-  const bool duplicate = frame.sequence == last_sequence;
-  last_sequence = frame.sequence;
-  switch (static_cast<FrameType>(frame.type)) {
+  const bool old = is_old(frame);
+  const auto type = static_cast<FrameType>(frame.type);
+  // A host that has started anew begins with these two, at any number.
+  if (!old || type == FrameType::stop_all || type == FrameType::hello) last_sequence = frame.sequence;
+  switch (type) {
     case FrameType::stop_all:
       motors::all_off();
       return accept(frame);
@@ -199,7 +206,7 @@ void handle(const Frame& frame) {
       break;
   }
   if (!motors::armed()) return refuse(frame, NackReason::unarmed);
-  if (duplicate) return accept(frame);
+  if (old) return accept(frame);
   motors::host_lives();
   act_on(frame);
 }

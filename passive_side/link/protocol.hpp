@@ -6,7 +6,8 @@
 // A frame on the wire: COBS( type u8 | sequence u8 | payload | CRC-16 little-endian ) 0x00.
 // The CRC covers type to payload; polynomial 0x1021, initial value 0xFFFF, no reflection (CRC-16/CCITT-FALSE).
 // Multi-byte numbers are little-endian. The sequence number grows by one a frame from the host; the answer repeats it.
-// A frame with the same sequence number as the one before is a duplicate: it is acknowledged and has no effect.
+// The sequence number tells frames that come twice or late: one that is up to 128 below the newest (modulo 256) is
+// acknowledged and has no effect. stop_all and hello count whatever their number is, and begin a new count.
 #pragma once
 
 #include <stdint.h>

@@ -78,7 +78,7 @@ TEST(SerialLink, ArmsTheJacketAndRunsTheMotorsItIsToldAndNoOthers) {
   EXPECT_FALSE(link.send({{5, 255, 200ms}}, SteadyClock{}.now()));
   ASSERT_TRUE(poll_until_armed(link)) << link.status().problem;
   EXPECT_EQ(link.status().motor_count, 16);
-  EXPECT_EQ(link.status().firmware_version, 2);
+  EXPECT_EQ(link.status().firmware_version, 3);
   EXPECT_EQ(link.status().problem, "");
   ASSERT_TRUE(drive_until(link, [&] { return runs_both(folder / "pins"); }));
   EXPECT_THAT(running(read_pins(folder / "pins")), ElementsAre(5, 9));
