@@ -12,6 +12,7 @@ namespace telehug {
 namespace {
 
 using Json = nlohmann::json;
+using ::testing::ContainsRegex;
 using ::testing::HasSubstr;
 
 constexpr double longest_ms = 300;
@@ -61,12 +62,15 @@ TEST_F(Heaters, WarmTheirPadUntilAPauseEndsIt) {
   const double before = celsius();
   const auto trial = try_heater("4");
   ASSERT_TRUE(eventually([&] { return celsius() >= before + 0.3; }, 4s)) << before << " C" << pair.logs();
+  EXPECT_FALSE(heater().contains("why"));
   EXPECT_NEAR(heater().at("set_point_celsius").get<double>(), 32 + 0.7 * 7, 0.1);
   const auto silence_ms = pair.ms_to_silence([this] { ASSERT_EQ(pair.telehug("pause", Side::passive).code, 0); });
   ASSERT_TRUE(silence_ms) << pair.logs();
   fmt::print("the heater is off after `telehug pause`: {:.0f} ms\n", *silence_ms);
   EXPECT_LE(*silence_ms, longest_ms) << pair.logs();
-  EXPECT_TRUE(eventually([&] { return heater().at("set_point_celsius") == 0; }));
+  EXPECT_TRUE(eventually([&] { return heater().value("why", "") == "paused until further notice"; })) << pair.logs();
+  EXPECT_THAT(pair.telehug("status", Side::passive).text,
+              ContainsRegex("heater +right flank, warm: 3[0-9.]+ C, off: paused until further notice\n"));
   ASSERT_TRUE(eventually([&] { return !trial->runs(); }));
   EXPECT_EQ(trial->end(), to_int(ExitCode::refused));
   EXPECT_THAT(content_of(pair.folder / "trial.log"), HasSubstr("actuator 21 was not driven: paused"));
