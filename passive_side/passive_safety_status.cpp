@@ -6,6 +6,7 @@
 #include "daemon/status_parts.hpp"
 #include "heater_status.hpp"
 #include "passive_daemon.hpp"
+#include "safety/muted_place.hpp"
 
 namespace telehug {
 namespace {
@@ -40,17 +41,19 @@ void PassiveDaemon::add_safety_problems(Json& list, const DriveThreadState& now)
 
 void PassiveDaemon::add_safety_status(Json& answer, const DriveThreadState& now) const {
   const Consent consent = consent_.consent();
-  answer["consent"] = consent_json(consent, wall_time());
+  const WallTime time = wall_time();
+  answer["consent"] = consent_json(consent, time);
   if (now.heaters.empty()) return;
-  const std::string refusal = now.stopped ? "stopped: " + now.stop_reason : refusal_text(consent, wall_time());
+  const std::string refusal = now.stopped ? "stopped: " + now.stop_reason : refusal_text(consent, time);
+  const Permission permission = permission_at(consent, time, local_minute(time));
   Json heaters = Json::array();
   for (const HeaterReport& heater : now.heaters) {
-    const auto index = profile_.index_of(heater.id);
-    heaters.push_back(heater_json(heater, actuator_name(heater.id),
+    const Actuator& actuator = profile_.actuators.at(profile_.index_of(heater.id).value());
+    heaters.push_back(heater_json(heater, actuator.name,
                                   {.jacket_answers = now.link.state == LinkState::armed,
                                    .refusal = refusal,
-                                   .muted = consent.muted_actuators.test(heater.id),
-                                   .enabled = index && profile_.actuators[*index].enabled}));
+                                   .muted = is_muted(actuator.id, actuator.place, permission),
+                                   .enabled = actuator.enabled}));
   }
   answer["heaters"] = std::move(heaters);
 }
