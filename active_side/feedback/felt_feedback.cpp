@@ -18,10 +18,7 @@ Result<std::unique_ptr<FeltFeedback>> FeltFeedback::make(const FeedbackConfig& c
   if (config.link.empty()) return std::unique_ptr<FeltFeedback>();
   auto profile = load_jacket_profile(installed_jacket_file(config.profile));
   if (!profile) return profile.error();
-  LinkOptions options;
-  options.baud = static_cast<unsigned>(profile->baud);
-  if (profile->protocol == JacketProtocol::legacy) options.protocol = LinkProtocol::legacy;
-  auto link = make_link(config.link, options);
+  auto link = make_link(config.link, link_options(*profile));
   if (!link) return link.error();
   return std::make_unique<FeltFeedback>(*std::move(profile), *std::move(link), config.strength, clock);
 }
