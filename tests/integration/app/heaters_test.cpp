@@ -63,6 +63,7 @@ TEST_F(Heaters, WarmTheirPadUntilAPauseEndsIt) {
   const auto trial = try_heater("4");
   ASSERT_TRUE(eventually([&] { return celsius() >= before + 0.3; }, 4s)) << before << " C" << pair.logs();
   EXPECT_FALSE(heater().contains("why"));
+  EXPECT_EQ(pair.status(Side::passive).at("jacket").at("running"), Json::array({right_flank})) << "so the light tells";
   EXPECT_NEAR(heater().at("set_point_celsius").get<double>(), 32 + 0.7 * 7, 0.1);
   const auto silence_ms = pair.ms_to_silence([this] { ASSERT_EQ(pair.telehug("pause", Side::passive).code, 0); });
   ASSERT_TRUE(silence_ms) << pair.logs();
