@@ -310,6 +310,39 @@ TEST_F(PassivePipelineOfPlaces, LetsAHoldFadeBetweenTwoEvents) {
   EXPECT_THAT(running(), IsEmpty()) << "no event vouches for it any more";
 }
 
+TEST_F(PassivePipelineOfPlaces, FeelsATouchBesideAMutedBoxByItsOtherNeighbourAloneAndSaysSo) {
+  SafetyStage stage(std::make_unique<FakeJacketLink>(jacket), profile, SafetyLimits{});
+  PassivePipeline path(0, profile, stage, turn, 200ms, other_session, clock, metrics);
+  stage.tick(clock.now());
+  Contact between = contact_in(2);
+  between.body = {-0.3, 0.25};
+  const auto feel_with = [&](const Permission& permission) -> Felt {
+    stage.permit(permission, clock.now());
+    path.forget_touches(clock.now());
+    stage.on_heartbeat(0, clock.now());
+    event = event_of(event.sequence + 1, {between});
+    event.session = session;
+    event.sent_time_ns = to_ns(clock.now());
+    return path.process(event, clock.now()).at(0);
+  };
+  EXPECT_THAT(feel_with({}).actuators, ElementsAre(1, 2));
+  EXPECT_THAT(running(), ElementsAre(0, 1));
+  const int share = jacket.intensity(0, clock.now());
+
+  Permission permission;
+  permission.muted_boxes.set(3);
+  const Felt beside = feel_with(permission);
+  EXPECT_EQ(beside.outcome, FeltOutcome::driven);
+  EXPECT_THAT(beside.actuators, ElementsAre(1));
+  EXPECT_THAT(running(), ElementsAre(0));
+  EXPECT_EQ(jacket.intensity(0, clock.now()), share);
+
+  between.body = {-0.24, 0.25};
+  between.box = 3;
+  EXPECT_EQ(feel_with(permission).outcome, FeltOutcome::muted) << "the box itself";
+  EXPECT_THAT(running(), IsEmpty());
+}
+
 TEST_F(PassivePipelineOfPlaces, MovesNothingOnItsOwnAfterAStop) {
   feel(contact_in(3));
   safety.stop("enough", clock.now());

@@ -76,6 +76,8 @@ class Adversary {
       made.quiet_hours.push_back({whole(0, minutes_of_day - 1), whole(0, minutes_of_day - 1)});
     for (int n = one_in(2) ? whole(1, 3) : 0; n > 0; --n)
       made.muted_actuators.set(static_cast<std::size_t>(whole(0, 10)));
+    for (int n = one_in(2) ? whole(1, 6) : 0; n > 0; --n)
+      made.muted_boxes.set(static_cast<std::size_t>(whole(1, 20)));
     return made;
   }
   std::optional<JacketTelemetry> telemetry(Timestamp now) {
@@ -129,6 +131,7 @@ JacketProfile random_profile(Adversary& adversary) {
     Actuator made = motor(static_cast<std::uint8_t>(9 + heater), {}, {});
     made.kind = ActuatorKind::heater;
     made.channel = static_cast<std::uint8_t>(heater);
+    made.place = {adversary.real(-1, 1), adversary.real(0, 2)};
     made.max_celsius = adversary.real(32, 45);
     made.enabled = !adversary.one_in(10);
     profile.actuators.push_back(made);
@@ -232,6 +235,8 @@ class HauntedJacket {
     });
   }
   [[nodiscard]] const SafetyCounters& counters() const { return safety_.counters(); }
+  // An actuator that may be driven but for the box that it lies in was asked to be.
+  [[nodiscard]] bool muted_a_box() const { return muted_a_box_; }
 
  private:
   void move_clock() {
@@ -275,6 +280,11 @@ class HauntedJacket {
   // Drives that no planner would make, or those that the planner makes of touches that nobody would send.
   void apply() {
     const SafetyVerdict verdict = safety_.apply(adversary_.sender(), some_drives(), now_);
+    for (const std::uint8_t id : verdict.muted) {
+      const Actuator& actuator = profile_.actuators.at(profile_.index_of(id).value());
+      EXPECT_TRUE(silenced(actuator));
+      muted_a_box_ = muted_a_box_ || (actuator.enabled && !safety_.permission().muted_actuators.test(id));
+    }
     if (safety_.stopped()) {
       EXPECT_EQ(verdict.outcome, FeltOutcome::stopped);
     } else if (safety_.permission().refusal) {
@@ -330,7 +340,16 @@ class HauntedJacket {
   }
 
   [[nodiscard]] bool silenced(const Actuator& actuator) const {
-    return !actuator.enabled || safety_.permission().muted_actuators.test(actuator.id);
+    return !actuator.enabled || safety_.permission().muted_actuators.test(actuator.id) || in_muted_box(actuator);
+  }
+  [[nodiscard]] bool in_muted_box(const Actuator& actuator) const {
+    for (int box = 1; box <= 20; ++box) {
+      const BodyPoint middle = middle_of(box);
+      const bool inside =
+          std::abs(actuator.place.x_fh - middle.x_fh) < 0.25 && std::abs(actuator.place.y_fh - middle.y_fh) < 0.25;
+      if (inside && safety_.permission().muted_boxes.test(static_cast<std::size_t>(box))) return true;
+    }
+    return false;
   }
 
   void check_heat(const FakeJacket::HeatFrame& frame) {
@@ -406,6 +425,7 @@ class HauntedJacket {
   std::size_t checked_ = 0;
   std::size_t checked_heat_ = 0;
   std::size_t taken_stops_ = 0;
+  bool muted_a_box_ = false;
 };
 
 TEST(SafetyStageWithAnyInput, stays_within_every_limit_and_is_off_when_the_sender_dies) {
@@ -413,6 +433,7 @@ TEST(SafetyStageWithAnyInput, stays_within_every_limit_and_is_off_when_the_sende
   int heated = 0;
   int tired = 0;
   int short_of_current = 0;
+  int muted_boxes = 0;
   for (std::uint32_t seed = 1; seed <= 1500; ++seed) {
     SCOPED_TRACE(seed);
     HauntedJacket haunted(seed);
@@ -424,12 +445,14 @@ TEST(SafetyStageWithAnyInput, stays_within_every_limit_and_is_off_when_the_sende
     heated += haunted.heated() ? 1 : 0;
     tired += haunted.counters().limited_by_duty > 0 ? 1 : 0;
     short_of_current += haunted.counters().limited_by_current > 0 ? 1 : 0;
+    muted_boxes += haunted.muted_a_box() ? 1 : 0;
   }
   // It has been tried, not just avoided.
   EXPECT_GT(drove, 1000);
   EXPECT_GT(heated, 300);
   EXPECT_GT(tired, 300);
   EXPECT_GT(short_of_current, 200);
+  EXPECT_GT(muted_boxes, 300);
 }
 
 TEST(SafetyStageWithAnyInput, leaves_a_jacket_that_is_silent_250_ms_after_the_daemon_dies) {
