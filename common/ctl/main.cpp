@@ -14,6 +14,7 @@ constexpr const char* examples = R"(
 Examples:
   telehug status                      how the daemons on this PC are
   telehug status --json | jq .        the same for programs
+  telehug open                        this side's pages in the browser
   telehug status --check --side active && echo ready
   telehug watch                       touches and answers as they happen
   telehug stop --reason "dinner"      everything off, on both PCs
@@ -50,6 +51,7 @@ ExitCode parse_and_run(int argc, char** argv) {
   telehug::add_face(app, result);
   telehug::add_hug(app, result);
   telehug::add_jacket(app, result);
+  telehug::add_open(app, result);
   telehug::add_pair(app, result);
   telehug::add_version(app, result);
   try {
