@@ -108,8 +108,8 @@ Outputs::Found Outputs::find(std::uint8_t id, double strength) {
   return {&*heater, set_point_celsius(strength, heater->most_celsius)};
 }
 
-Outputs::Asked Outputs::ask(SenderNumber sender, const Drive& wanted, const MutedActuators& muted, Timestamp now) {
-  const auto [output, level] = find(wanted.actuator, wanted.strength);
+Outputs::Asked Outputs::ask(SenderNumber sender, const Drive& wanted, const Permission& permission, Timestamp now) {
+  const auto [output, level] = find(wanted.actuator, std::min(wanted.strength, 1.0) * permission.strength);
   if (output == nullptr) {
     ++counters_.refused_unknown_actuator;
     return Asked::refused;
@@ -124,7 +124,7 @@ Outputs::Asked Outputs::ask(SenderNumber sender, const Drive& wanted, const Mute
     counters_.off_ended += one_if(was_on && !output->shares.any());
     return Asked::ended;
   }
-  if (!output->enabled || muted.test(wanted.actuator)) {
+  if (!output->enabled || permission.muted_actuators.test(wanted.actuator)) {
     ++counters_.refused_muted;
     return Asked::muted;
   }
