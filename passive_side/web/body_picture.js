@@ -10,10 +10,10 @@ let shapes = new Map();  // by an actuator's id
 let running = new Set();
 let muted = new Set();
 
-// The svg's own style is for files; here the page's counts.
+// The svg's own style is for files; here the page's counts, and is the only one that is permitted.
 function parsed(svg) {
-  const picture = new DOMParser().parseFromString(svg, "image/svg+xml").documentElement;
-  picture.querySelector("style")?.remove();
+  const plain = svg.replace(/<style>.*?<\/style>/s, "");
+  const picture = new DOMParser().parseFromString(plain, "image/svg+xml").documentElement;
   picture.setAttribute("aria-hidden", "true");
   picture.removeAttribute("role");
   return document.importNode(picture, true);

@@ -12,6 +12,7 @@
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "common/clock.hpp"
 
@@ -47,6 +48,8 @@ class RawBrowser {
     }
     return true;
   }
+
+  void say_no_more() const { ::shutdown(fd_, SHUT_WR); }
 
   // All that comes until the connection ends, or `end` is in it. What came before the last such call is gone.
   std::string read_until(std::string_view end) {
