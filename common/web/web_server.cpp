@@ -56,9 +56,6 @@ class WebServer::Service final : public WebConnection::Host, public std::enable_
     const auto connections = std::exchange(connections_, {});
     for (const auto& connection : connections)
       connection->close();
-    acceptor_.close();
-    io_.restart();
-    io_.poll();
   }
 
   void start() {
