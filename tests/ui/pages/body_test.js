@@ -72,6 +72,11 @@ describe("The wearer's page", () => {
     await page.getByText("Ready: you can be touched").waitFor();
   });
 
+  test("hugs back", async () => {
+    await page.getByRole("button", {name: "Hug back"}).click();
+    await eventually(async () => (await daemons.status("active")).last_hug, "the other side has seen the hug");
+  });
+
   test("has nothing serious for axe-core in either colour scheme", async () => {
     for (const colorScheme of ["light", "dark"]) {
       await page.emulateMedia({colorScheme});
