@@ -189,7 +189,7 @@ class PassiveDaemon {
   Senders senders_;
   std::unique_ptr<Panel> panel_;
   std::unique_ptr<ControlServer> control_;
-  DaemonPages pages_;  // ends before what it asks
+  DaemonPages pages_;
   std::thread drive_thread_;
 };
 

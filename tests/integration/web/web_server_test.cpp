@@ -135,7 +135,10 @@ TEST_F(TheWebServer, TurnsANewConnectionAwayWhileAllBelongToPages) {
     pages.emplace_back(server->port()).send(get("/"));
     EXPECT_THAT(pages.back().read_answer(), HasSubstr("<p>page"));
   }
-  EXPECT_THAT(RawBrowser(server->port()).read_to_the_end(), IsEmpty());
+  RawBrowser newcomer(server->port());
+  (void)newcomer.send(get("/"));
+  EXPECT_THAT(newcomer.read_to_the_end(), IsEmpty());
+  EXPECT_EQ(server->stats().refused_connections, 1U);
   pages.front().send(get("/"));
   EXPECT_THAT(pages.front().read_answer(), HasSubstr("<p>page"));
 }
