@@ -7,6 +7,7 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <set>
 #include <stdexcept>
 #include <string>
 #include <thread>
@@ -32,6 +33,8 @@
 #include "service/metrics.hpp"
 #include "service/notifier.hpp"
 #include "service/signals.hpp"
+#include "touches_today.hpp"
+#include "web/daemon_pages.hpp"
 
 namespace telehug {
 
@@ -107,6 +110,8 @@ class PassiveDaemon {
   // Housekeeping
   [[nodiscard]] bool follow_pairs();
   void tell_watchers();
+  void tell_running_to_all();
+  void tell_pages();
   void tell_of_limits();
   void keep_connections();
   void answer_commands();
@@ -170,7 +175,11 @@ class PassiveDaemon {
   SayOnChange say_jacket_;
   SayOnChange say_consent_;
   LimitNotes limit_notes_;
+  Timestamp told_pages_;
+  std::set<std::uint8_t> runs_;          // as last heard of the drive thread
+  std::set<std::uint8_t> running_told_;  // to the pages
 
+  TouchesToday touches_today_;
   std::uint64_t trials_ordered_ = 0;  // the control thread's
   std::mutex hug_mutex_;
   HugBack hug_back_;  // guarded by it
@@ -180,6 +189,7 @@ class PassiveDaemon {
   Senders senders_;
   std::unique_ptr<Panel> panel_;
   std::unique_ptr<ControlServer> control_;
+  DaemonPages pages_;
   std::thread drive_thread_;
 };
 

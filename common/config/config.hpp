@@ -26,6 +26,11 @@ struct ControlConfig {
   std::string group;   // empty: the daemon's own
 };
 
+struct WebConfig {
+  bool enabled = true;
+  int port = 0;  // 0: the kernel chooses one
+};
+
 struct LogConfig {
   std::string level = "info";
 };
@@ -104,6 +109,7 @@ struct ActiveConfig {
   PeerConfig peer;
   int heartbeat_timeout_ms = 250;  // [peer]
   ControlConfig control;
+  WebConfig web;
   LogConfig log;
 };
 
@@ -150,6 +156,7 @@ struct PassiveConfig {
   GpioConfig gpio;
   PeerConfig peer;
   ControlConfig control;
+  WebConfig web;
   LogConfig log;
 };
 

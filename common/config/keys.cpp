@@ -95,11 +95,18 @@ Rows peer_rows(PeerConfig& c) {
   };
 }
 
-Rows common_rows(ControlConfig& control, LogConfig& log) {
+Rows common_rows(ControlConfig& control, WebConfig& web, LogConfig& log) {
   return {
       {"control", "socket", &control.socket, "", TextCheck(fits_a_socket),
        "Local socket that `telehug status` talks to; empty: in the runtime folder of the service or user."},
       {"control", "group", &control.group, "", {}, "Group that may use the socket; empty: the daemon's own."},
+      {"web",
+       "enabled",
+       &web.enabled,
+       "",
+       {},
+       "true: `telehug open` shows this side's pages in the browser of this PC; nobody else can reach them."},
+      {"web", "port", &web.port, "", Range{0, 65535}, "TCP port of the pages, on 127.0.0.1 alone; 0: any free one."},
       {"log", "level", &log.level, "", OneOf{{"trace", "debug", "info", "warn", "error"}},
        "The least important messages that are logged."},
   };
@@ -342,7 +349,7 @@ std::vector<Key> keys_of(ActiveConfig& c) {
   append(rows, peer_rows(c.peer));
   append(rows, {{"peer", "heartbeat_timeout_ms", &c.heartbeat_timeout_ms, "ms", heartbeat_timeout,
                  "Without a heartbeat for so long the peer counts as absent."}});
-  append(rows, common_rows(c.control, c.log));
+  append(rows, common_rows(c.control, c.web, c.log));
   return rows;
 }
 
@@ -392,7 +399,7 @@ std::vector<Key> keys_of(PassiveConfig& c) {
   };
   append(rows, gpio_rows(c.gpio));
   append(rows, peer_rows(c.peer));
-  append(rows, common_rows(c.control, c.log));
+  append(rows, common_rows(c.control, c.web, c.log));
   return rows;
 }
 

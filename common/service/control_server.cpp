@@ -3,6 +3,7 @@
 
 #include <fmt/core.h>
 #include <spdlog/spdlog.h>
+#include <unistd.h>
 
 #include <atomic>
 #include <boost/asio/io_context.hpp>
@@ -79,17 +80,14 @@ class ControlServer::Service final : public ControlSession::Host {
       session.watch();
       return {{"watching", true}};
     }
-    const auto handler = handlers_.find(command);
-    if (handler == handlers_.end()) {
-      ++malformed_requests_;
-      return {{"error", unknown(command)}};
-    }
-    try {
-      return handler->second(request, caller);
-    } catch (const std::exception& problem) {
-      spdlog::error("the command \"{}\" of the local socket failed: {}", command, problem.what());
-      return {{"error", problem.what()}};
-    }
+    return handled(command, request, caller);
+  }
+
+  void ask(nlohmann::json request, std::function<void(nlohmann::json)> answered) {
+    asio::post(io_, [this, request = std::move(request), answered = std::move(answered)] {
+      ++requests_;
+      answered(handled(request.at("command").get<std::string>(), request, {getpid(), getuid(), getgid()}));
+    });
   }
 
   void malformed() override { ++malformed_requests_; }
@@ -104,6 +102,20 @@ class ControlServer::Service final : public ControlSession::Host {
   std::map<std::string, CallerHandler> handlers_;
 
  private:
+  nlohmann::json handled(const std::string& command, const nlohmann::json& request, const Caller& caller) {
+    const auto handler = handlers_.find(command);
+    if (handler == handlers_.end()) {
+      ++malformed_requests_;
+      return {{"error", unknown(command)}};
+    }
+    try {
+      return handler->second(request, caller);
+    } catch (const std::exception& problem) {
+      spdlog::error("the command \"{}\" of the local socket failed: {}", command, problem.what());
+      return {{"error", problem.what()}};
+    }
+  }
+
   void accept() {
     acceptor_.async_accept([this](const boost::system::error_code& problem, ControlSession::Socket socket) {
       if (problem == asio::error::operation_aborted) return;
@@ -191,6 +203,9 @@ void ControlServer::on(const std::string& command, CallerHandler handler) {
 
 void ControlServer::start() {
   service_->start();
+}
+void ControlServer::ask(nlohmann::json request, std::function<void(nlohmann::json)> answered) {
+  service_->ask(std::move(request), std::move(answered));
 }
 void ControlServer::broadcast(nlohmann::json event) {
   service_->broadcast(std::move(event));

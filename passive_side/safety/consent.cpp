@@ -25,7 +25,7 @@ std::optional<QuietSpan> quiet_span_at(const QuietHours& hours, int now_min) {
 }
 
 Permission permission_at(const Consent& consent, std::chrono::sys_seconds now, int now_min) {
-  Permission permission{{}, consent.muted_boxes, consent.muted_actuators};
+  Permission permission{{}, consent.muted_boxes, consent.muted_actuators, consent.strength};
   if (consent.pause && (!consent.pause->until || now < *consent.pause->until)) {
     permission.refusal = FeltOutcome::paused;
   } else if (quiet_span_at(consent.quiet_hours, now_min)) {

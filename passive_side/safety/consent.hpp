@@ -26,6 +26,7 @@ struct Consent {
   QuietHours quiet_hours;
   MutedBoxes muted_boxes;
   MutedActuators muted_actuators;
+  double strength = 1;  // above 0, at most 1: of what the limits allow
   friend bool operator==(const Consent&, const Consent&) = default;
 };
 
@@ -34,6 +35,7 @@ struct Permission {
   std::optional<FeltOutcome> refusal;  // paused or quiet_hours: nothing at all
   MutedBoxes muted_boxes;
   MutedActuators muted_actuators;
+  double strength = 1;  // as in Consent
   friend bool operator==(const Permission&, const Permission&) = default;
 };
 

@@ -110,7 +110,7 @@ Outputs::Found Outputs::find(std::uint8_t id, double strength) {
 }
 
 Outputs::Asked Outputs::ask(SenderNumber sender, const Drive& wanted, const Permission& permission, Timestamp now) {
-  const auto [output, level] = find(wanted.actuator, wanted.strength);
+  const auto [output, level] = find(wanted.actuator, std::min(wanted.strength, 1.0) * permission.strength);
   if (output == nullptr) {
     ++counters_.refused_unknown_actuator;
     return Asked::refused;

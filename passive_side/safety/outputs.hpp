@@ -26,7 +26,8 @@ class Outputs {
   Outputs(const Outputs&) = delete;
   Outputs& operator=(const Outputs&) = delete;
 
-  // Of anything but `accepted` the sender asks nothing of this actuator then. sender: below max_senders.
+  // Of anything but `accepted` the sender asks nothing of this actuator then. sender: below max_senders. What the
+  // wearer permits only ever takes away from it.
   Asked ask(SenderNumber sender, const Drive& wanted, const Permission& permission, Timestamp now);
 
   // What was commanded has run until now. Comes before whatever changes that.

@@ -14,4 +14,5 @@ telehug_test(test_jacket_status KIND unit SUBJECT jacket
 telehug_test(test_demo_verdict KIND unit SUBJECT touch SOURCES unit/app/demo_verdict_test.cpp DEPS demonstration)
 telehug_test(test_consent KIND unit SUBJECT jacket
   SOURCES unit/app/consent_file_test.cpp unit/app/consent_switch_test.cpp unit/app/limit_notes_test.cpp
+          unit/app/touches_today_test.cpp
   DEPS passive_app)

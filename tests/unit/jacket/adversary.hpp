@@ -72,6 +72,7 @@ class Adversary {
       made.muted_actuators.set(static_cast<std::size_t>(whole(0, 10)));
     for (int n = one_in(2) ? whole(1, 6) : 0; n > 0; --n)
       made.muted_boxes.set(static_cast<std::size_t>(whole(1, 20)));
+    if (one_in(5)) made.strength = real(0, 1);
     return made;
   }
   std::optional<JacketTelemetry> telemetry(Timestamp now) {

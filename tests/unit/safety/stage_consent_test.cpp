@@ -3,6 +3,8 @@
 // The safety stage and what the wearer wants.
 #include <gmock/gmock.h>
 
+#include <limits>
+
 #include "unit/jacket/safety_stage_fixture.hpp"
 
 namespace telehug {
@@ -137,6 +139,47 @@ TEST_F(SafetyStageWithConsent, tells_for_each_contact_whether_it_was_muted_or_li
   EXPECT_EQ(verdict.outcome_at(neither), FeltOutcome::limited);
   EXPECT_EQ(verdict.outcome_at(felt), FeltOutcome::driven);
   EXPECT_EQ(safety->apply(0, {{1, 1, now + 100ms}, {2, 1, now + 100ms}}, now).outcome, FeltOutcome::limited);
+}
+
+TEST_F(SafetyStageWithConsent, drives_weaker_at_the_strength_that_the_wearer_wants_but_so_that_it_is_felt) {
+  const auto driven_at = [this](double strength, std::uint8_t actuator) {
+    Permission permission;
+    permission.strength = strength;
+    safety->permit(permission, now);
+    EXPECT_EQ(drive(actuator), FeltOutcome::driven);
+    return intensity(actuator - 1U);
+  };
+  constexpr double step = 255.0 / 31 + 1;  // of the microcontroller, and rounding
+  const int whole = driven_at(1, 1);
+  EXPECT_EQ(whole, 255);
+  EXPECT_NEAR(driven_at(0.5, 1), whole / 2.0, step);
+  EXPECT_GT(driven_at(0.01, 1), 0);
+  // The second motor turns from 0.2 on and may have 0.4: what is wanted is spread over that.
+  EXPECT_NEAR(driven_at(1, 2), 255 * 0.4, step);
+  EXPECT_NEAR(driven_at(0.5, 2), 255 * 0.3, step);
+  EXPECT_NEAR(driven_at(0.01, 2), 255 * 0.2, step);
+}
+
+TEST_F(SafetyStageWithConsent, is_never_stronger_than_its_limits_whatever_strength_is_wanted) {
+  start({.max_strength = 0.3});
+  for (const double strength : {0.0, 0.1, 0.5, 1.0, 2.0, 1e300, std::numeric_limits<double>::infinity(),
+                                std::numeric_limits<double>::quiet_NaN(), -1.0}) {
+    Permission permission;
+    permission.strength = strength;
+    safety->permit(permission, now);
+    for (const double asked : {0.5, 1.0, 1e300}) {
+      drive(1, asked);
+      EXPECT_LE(intensity(0), 255 * 0.3) << strength;
+    }
+  }
+}
+
+TEST_F(SafetyStageWithConsent, ends_what_runs_when_another_strength_is_wanted) {
+  drive(1);
+  Permission permission;
+  permission.strength = 0.5;
+  safety->permit(permission, now);
+  EXPECT_THAT(running(), IsEmpty());
 }
 
 TEST_F(SafetyStageWithConsent, goes_on_with_what_runs_if_the_wearer_wants_nothing_else) {
