@@ -39,6 +39,8 @@ TEST_F(TheWebServer, QueuesNothingForAPageThatReadsTooSlowly) {
   } while (!event.empty() && event.find(fmt::format("\"number\":{}}}", all)) == std::string::npos);
   EXPECT_FALSE(event.empty()) << "the last one arrives";
   EXPECT_LT(seen, all / 2);
+  server->tell("news", {{"number", "next"}});
+  EXPECT_EQ(page.read_until("\n\n"), "event: news\ndata: {\"number\":\"next\"}\n\n") << "and once";
 }
 
 TEST_F(TheWebServer, GivesUpAPageThatDoesNotRead) {

@@ -159,7 +159,8 @@ describe("The wearer's page", () => {
 
   test("tries a motor", async () => {
     await page.locator("#trial-which").selectOption("12");
-    const ms = await page.evaluate(() => new Promise((lit) => {
+    const ms = await page.evaluate(() => new Promise((lit, fail) => {
+      setTimeout(() => fail(new Error("motor 12 does not light up")), 10_000);
       const group = document.querySelector("#picture [data-actuator='12']");
       const ordered = performance.now();
       new MutationObserver(() => group.querySelector(".runs") && lit(performance.now() - ordered))
