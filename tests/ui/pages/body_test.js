@@ -117,6 +117,7 @@ describe("The wearer's page", () => {
     assert.equal(await page.evaluate(() => document.activeElement.dataset.box), "12");
     await page.keyboard.press("Space");
     await eventually(async () => (await status()).consent.muted_boxes?.includes(12), "box 12 is muted");
+    await page.locator('[data-box="12"][aria-pressed="true"]').waitFor();  // else the page would mute it again
     await page.keyboard.press("Space");
     await eventually(async () => !(await status()).consent.muted_boxes, "box 12 is unmuted");
 
