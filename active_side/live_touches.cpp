@@ -11,6 +11,7 @@ namespace {
 using Json = nlohmann::json;
 
 constexpr Duration longest_silence = 1s;
+constexpr std::size_t most_early = 2 * max_contacts;
 
 }  // namespace
 
@@ -33,26 +34,36 @@ void LiveTouches::sent(const Contact& contact, Timestamp now) {
     return;
   }
   if (live_.size() == max_contacts) live_.erase(live_.begin());
-  live_.push_back({contact, now, {}});
+  Live& fresh = live_.emplace_back(Live{contact, now, {}});
+  for (const auto& [id, answer] : early_)
+    if (id == contact.id) take(fresh.answers, answer.wearer, answer.outcome);
+  std::erase_if(early_, [&](const auto& early) { return early.first == contact.id; });
+}
+
+void LiveTouches::take(Answers& answers, const std::string& wearer, FeltOutcome outcome) {
+  const auto known = std::ranges::find(answers, wearer, &Answers::value_type::first);
+  if (known == answers.end()) {
+    answers.emplace_back(wearer, outcome);
+    changed_ = true;
+  } else if (known->second != outcome) {
+    known->second = outcome;
+    changed_ = true;
+  }
 }
 
 void LiveTouches::felt(const Felt& answer, const std::string& wearer) {
   if (answer.phase == Phase::up) return;  // that a touch is over is no answer to it
   Answer newest{answer.box, answer.outcome, wearer};
-  if (answer_ != newest) {
-    answer_ = std::move(newest);
-    changed_ = true;
-  }
   Live* const live = find(answer.contact_id);
-  if (live == nullptr) return;
-  const auto known = std::ranges::find(live->answers, wearer, &Answers::value_type::first);
-  if (known == live->answers.end()) {
-    live->answers.emplace_back(wearer, answer.outcome);
-    changed_ = true;
-  } else if (known->second != answer.outcome) {
-    known->second = answer.outcome;
-    changed_ = true;
+  if (live != nullptr) {
+    take(live->answers, wearer, answer.outcome);
+  } else {
+    if (early_.size() == most_early) early_.erase(early_.begin());
+    early_.emplace_back(answer.contact_id, newest);
   }
+  if (answer_ == newest) return;
+  answer_ = std::move(newest);
+  changed_ = true;
 }
 
 void LiveTouches::forget(Timestamp now) {

@@ -42,8 +42,11 @@ class LiveTouches {
   };
 
   Live* find(std::uint32_t contact);
+  void take(Answers& answers, const std::string& wearer, FeltOutcome outcome);
 
   std::vector<Live> live_;  // max_contacts at most
+  // An answer may be here before the touch thread has told of its contact: of the newest few, until it does.
+  std::vector<std::pair<std::uint32_t, Answer>> early_;
   std::optional<Answer> answer_;
   bool changed_ = true;
 };

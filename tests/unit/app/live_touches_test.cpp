@@ -82,6 +82,18 @@ TEST(LiveTouches, KeepTheLastAnswerAfterTheTouch) {
       << "the answer to its end says nothing of what was felt";
 }
 
+TEST(LiveTouches, KnowTheAnswerAlsoIfItIsHereBeforeTheContact) {
+  LiveTouches live;
+  for (std::uint32_t id = 50; id < 100; ++id)
+    live.felt(answer(id, 3, FeltOutcome::stale), "Mia");
+  live.felt(answer(1, 12, FeltOutcome::driven), "Mia");
+  live.sent(contact(1, Phase::down, 12), start);
+  const Json driven = Json::array({{{"wearer", "Mia"}, {"outcome", "driven"}}});
+  EXPECT_EQ(live.news()->at("contacts").at(0).at("answers"), driven);
+  live.sent(contact(2, Phase::down, 12), start);
+  EXPECT_EQ(live.news()->at("contacts").at(1).at("answers"), Json::array()) << "it was not the answer to this one";
+}
+
 TEST(LiveTouches, ForgetAFingerWhoseEndGotLost) {
   LiveTouches live;
   live.sent(contact(1, Phase::down, 12), start);
