@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "active_pages.hpp"
 #include "config/places.hpp"
 #include "daemon/daemon_settings.hpp"
 #include "local_outputs.hpp"
@@ -53,7 +54,8 @@ ActiveDaemon::ActiveDaemon(const ActiveConfig& config, Memberships memberships, 
                  return std::make_shared<ConnectedWearer>(
                      std::move(membership), session_, std::chrono::milliseconds(config_.heartbeat_timeout_ms), clock_);
                }),
-      control_(std::make_unique<ControlServer>(control_options(config.control, Side::active))) {
+      control_(std::make_unique<ControlServer>(control_options(config.control, Side::active))),
+      pages_(config.web, active_pages_options(), *control_, clock) {
   if (config_.overlay.show)
     overlay_.emplace(X11OverlayConfig{.display = {}, .monitor = config_.body_map.monitor}, clock);
   if (!config_.sending.hotkey.empty())
@@ -69,6 +71,7 @@ ActiveDaemon::~ActiveDaemon() {
 ExitCode ActiveDaemon::run(Signals& signals) {
   load_rig_if_changed();
   control_->start();
+  pages_.start();
   touch_thread_ = std::thread([this] { touch_loop(); });
   notifier_.ready();
   spdlog::info("telehug-active {} runs; camera: {}", version, camera_name_);
@@ -85,6 +88,7 @@ ExitCode ActiveDaemon::run(Signals& signals) {
     if (request == SignalRequest::reload) calibration_time_.reset();
     load_rig_if_changed();
     tell_watchers();
+    tell_pages();
     tell_local_touch();
     serve_desktop();
     show_hugs();

@@ -16,6 +16,9 @@ using Json = nlohmann::json;
 DaemonPages::DaemonPages(const WebConfig& config, const DaemonPagesOptions& options, ControlServer& control,
                          const Clock& clock)
     : side_(options.side) {
+  for (const auto files : {shared_pages(), options.files})
+    for (const EmbeddedFile& file : files)
+      if (file.name.ends_with(".html")) pages_.emplace_back(file.name);
   if (config.enabled) {
     const auto ask = [&control](Json request, WebServer::Answered answered) {
       control.ask(std::move(request), std::move(answered));
@@ -48,7 +51,7 @@ void DaemonPages::tell(const std::string& topic, const Json& news) {
 }
 
 void DaemonPages::add_status(Json& status) const {
-  if (server_) status["web"] = {{"port", server_->port()}};
+  if (server_) status["web"] = {{"port", server_->port()}, {"pages", pages_}};
   if (!problem_.empty())
     status["problems"].push_back({{"what", problem_}, {"do", "set web.port to another one, or to 0, and start anew"}});
 }

@@ -9,6 +9,7 @@
 #include <set>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "common/clock.hpp"
 #include "common/messages.hpp"
@@ -41,13 +42,14 @@ class DaemonPages {
   void tell(const std::string& topic, const nlohmann::json& news);
   [[nodiscard]] bool has_followers() const noexcept { return server_ && server_->has_followers(); }
 
-  // For status: "web", and a problem if there is one.
+  // For status: "web" with the port and the names of the pages, and a problem if there is one.
   void add_status(nlohmann::json& status) const;
 
  private:
   [[nodiscard]] nlohmann::json open();
 
   const Side side_;
+  std::vector<std::string> pages_;     // "index.html"
   std::unique_ptr<WebServer> server_;  // null: switched off, or problem_ tells why not
   std::string problem_;
 };

@@ -79,6 +79,14 @@ export class Daemons {
                       ["--source", `replay:${held}`, "--loop"]);
   }
 
+  // A PC on which nothing has been set up yet.
+  async startBareActive() {
+    const child = this.start("active", [`rig.calibration_file=${path.join(this.folder, "none.toml")}`],
+                             ["--source", "virtual"]);
+    await eventually(() => this.status("active"), "the daemon that has no calibration");
+    return child;
+  }
+
   async telehug(...words) {
     return (await run(path.join(this.bin, "telehug"), words)).stdout;
   }
@@ -101,8 +109,8 @@ export class Daemons {
         .map((log) => `--- ${log}\n${fs.readFileSync(log, "utf8")}`).join("\n");
   }
 
-  async end() {
-    await Promise.all(this.children.map((child) => new Promise((done) => {
+  endOne(child) {
+    return new Promise((done) => {
       if (child.exitCode !== null || child.signalCode !== null) return done();
       const hard = setTimeout(() => child.kill("SIGKILL"), 5000);
       child.on("exit", () => {
@@ -110,7 +118,11 @@ export class Daemons {
         done();
       });
       child.kill("SIGTERM");
-    })));
+    });
+  }
+
+  async end() {
+    await Promise.all(this.children.map((child) => this.endOne(child)));
     fs.rmSync(this.folder, {recursive: true, force: true});
   }
 }
