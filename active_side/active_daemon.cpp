@@ -56,6 +56,8 @@ ActiveDaemon::ActiveDaemon(const ActiveConfig& config, Memberships memberships, 
                }),
       control_(std::make_unique<ControlServer>(control_options(config.control, Side::active))),
       pages_(config.web, active_pages_options(), *control_, clock) {
+  pairing_.emplace(Side::active, pairs_folder(config.peer, Side::active), config.peer.loopback_only ? "127.0.0.1" : "",
+                   *control_);
   if (config_.overlay.show)
     overlay_.emplace(X11OverlayConfig{.display = {}, .monitor = config_.body_map.monitor}, clock);
   if (!config_.sending.hotkey.empty())
@@ -66,6 +68,7 @@ ActiveDaemon::ActiveDaemon(const ActiveConfig& config, Memberships memberships, 
 
 ActiveDaemon::~ActiveDaemon() {
   end_thread();
+  control_.reset();  // its handlers use the pages
 }
 
 ExitCode ActiveDaemon::run(Signals& signals) {
@@ -101,6 +104,7 @@ ExitCode ActiveDaemon::run(Signals& signals) {
 }
 
 void ActiveDaemon::end_thread() {
+  pages_.stop();
   ending_ = true;
   if (touch_thread_.joinable()) touch_thread_.join();
   // The queue's own destructor (Boost 1.74) does not destroy what it holds.

@@ -17,6 +17,7 @@
 #include "config/config.hpp"
 #include "connected_wearer.hpp"
 #include "daemon/connections.hpp"
+#include "daemon/pairing_desk.hpp"
 #include "daemon/stop_switch.hpp"
 #include "feedback/felt_feedback.hpp"
 #include "live_touches.hpp"
@@ -204,8 +205,9 @@ class ActiveDaemon {
   SayOnChange say_hug_;
 
   Wearers wearers_;
+  std::optional<PairingDesk> pairing_;  // ends after what asks it
   std::unique_ptr<ControlServer> control_;
-  DaemonPages pages_;  // ends before what it asks
+  DaemonPages pages_;
   std::thread touch_thread_;
 };
 

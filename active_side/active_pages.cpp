@@ -15,8 +15,8 @@ constexpr Duration status_interval = 250ms;
 
 DaemonPagesOptions active_pages_options() {
   return {.side = Side::active,
-          .commands = {"status", "stop", "resume", "send", "face", "hug"},
-          .topics = {"status", "touch"},
+          .commands = {"status", "stop", "resume", "send", "face", "hug", "pairing"},
+          .topics = {"status", "touch", "pairing"},
           .files = active_pages()};
 }
 
@@ -25,6 +25,7 @@ void ActiveDaemon::tell_pages() {
   live_touches_.forget(now);
   if (!pages_.has_followers()) return;
   if (const auto news = live_touches_.news()) pages_.tell("touch", *news);
+  if (const auto news = pairing_->news()) pages_.tell("pairing", *news);
   if (now - told_pages_ < status_interval) return;
   told_pages_ = now;
   pages_.tell("status", status());

@@ -54,6 +54,8 @@ PassiveDaemon::PassiveDaemon(const PassiveConfig& config, Memberships membership
                }),
       control_(std::make_unique<ControlServer>(control_options(config.control, Side::passive))),
       pages_(config.web, passive_pages_options(), *control_, clock) {
+  pairing_.emplace(Side::passive, pairs_folder(config.peer, Side::passive),
+                   config.peer.loopback_only ? "127.0.0.1" : "", *control_);
   wanted_ = consent_.consent();
   panel_ = make_panel();  // not before it is known that no other daemon has its lines
   answer_commands();

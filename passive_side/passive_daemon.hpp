@@ -19,6 +19,7 @@
 #include "connected_sender.hpp"
 #include "consent_switch.hpp"
 #include "daemon/connections.hpp"
+#include "daemon/pairing_desk.hpp"
 #include "daemon/stop_switch.hpp"
 #include "gpio/panel.hpp"
 #include "hug_back.hpp"
@@ -188,6 +189,7 @@ class PassiveDaemon {
 
   Senders senders_;
   std::unique_ptr<Panel> panel_;
+  std::optional<PairingDesk> pairing_;  // ends after what asks it
   std::unique_ptr<ControlServer> control_;
   DaemonPages pages_;
   std::thread drive_thread_;

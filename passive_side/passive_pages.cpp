@@ -20,8 +20,8 @@ nlohmann::json running_json(const std::set<std::uint8_t>& actuators) {
 DaemonPagesOptions passive_pages_options() {
   return {.side = Side::passive,
           .commands = {"status", "stop", "resume", "pause", "unpause", "mute", "unmute", "strength", "jacket",
-                       "jacket_trial", "hug"},
-          .topics = {"status", "running"},
+                       "jacket_trial", "hug", "pairing"},
+          .topics = {"status", "running", "pairing"},
           .files = passive_pages()};
 }
 
@@ -46,7 +46,9 @@ void PassiveDaemon::tell_running_to_all() {
 
 void PassiveDaemon::tell_pages() {
   const Timestamp now = clock_.now();
-  if (!pages_.has_followers() || now - told_pages_ < status_interval) return;
+  if (!pages_.has_followers()) return;
+  if (const auto news = pairing_->news()) pages_.tell("pairing", *news);
+  if (now - told_pages_ < status_interval) return;
   told_pages_ = now;
   pages_.tell("status", status());
 }
