@@ -39,6 +39,7 @@ Started start(std::vector<std::string>& command) {
   posix_spawn_file_actions_adddup2(&actions, ends[1], STDOUT_FILENO);
   posix_spawn_file_actions_adddup2(&actions, ends[1], STDERR_FILENO);
   std::vector<char*> words;
+  words.reserve(command.size() + 1);
   for (std::string& word : command)
     words.push_back(word.data());
   words.push_back(nullptr);
