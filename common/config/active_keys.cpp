@@ -20,7 +20,7 @@ std::vector<Key> keys_of(ActiveConfig& c) {
   Rows rows{
       {"camera", "source", &c.camera.source, "", parsed_by(parse_camera_source),
        "\"webcam\", \"replay:DIR\" (a recording), \"virtual\" (a simulated rig) or \"virtual:SEED\" (one drawn at "
-       "random)."},
+       "random); with ?DIR behind it, what is on the rig's screen and what its user does is read from that folder."},
       {"camera",
        "device",
        &c.camera.device,
