@@ -68,6 +68,7 @@ ActiveDaemon::ActiveDaemon(const ActiveConfig& config, Memberships memberships, 
 
 ActiveDaemon::~ActiveDaemon() {
   end_thread();
+  control_.reset();  // its handlers use the pages
 }
 
 ExitCode ActiveDaemon::run(Signals& signals) {
@@ -103,6 +104,7 @@ ExitCode ActiveDaemon::run(Signals& signals) {
 }
 
 void ActiveDaemon::end_thread() {
+  pages_.stop();
   ending_ = true;
   if (touch_thread_.joinable()) touch_thread_.join();
   // The queue's own destructor (Boost 1.74) does not destroy what it holds.

@@ -207,7 +207,7 @@ class ActiveDaemon {
   Wearers wearers_;
   std::optional<PairingDesk> pairing_;  // ends after what asks it
   std::unique_ptr<ControlServer> control_;
-  DaemonPages pages_;  // ends before what it asks
+  DaemonPages pages_;
   std::thread touch_thread_;
 };
 

@@ -64,6 +64,7 @@ PassiveDaemon::PassiveDaemon(const PassiveConfig& config, Memberships membership
 
 PassiveDaemon::~PassiveDaemon() {
   end_thread();
+  control_.reset();  // its handlers use the pages
 }
 
 std::shared_ptr<ConnectedSender> PassiveDaemon::connect(Membership membership, const Senders::List& others) {
@@ -130,6 +131,7 @@ bool PassiveDaemon::follow_pairs() {
 }
 
 void PassiveDaemon::end_thread() {
+  pages_.stop();
   ending_ = true;
   if (drive_thread_.joinable()) drive_thread_.join();
   panel_->stop();

@@ -191,7 +191,7 @@ class PassiveDaemon {
   std::unique_ptr<Panel> panel_;
   std::optional<PairingDesk> pairing_;  // ends after what asks it
   std::unique_ptr<ControlServer> control_;
-  DaemonPages pages_;  // ends before what it asks
+  DaemonPages pages_;
   std::thread drive_thread_;
 };
 

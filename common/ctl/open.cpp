@@ -40,7 +40,7 @@ ExitCode open(const Options& options) {
       result = complain(daemon, ExitCode::bad_answer, reply.error().message);
     } else if (reply->contains("error")) {
       result = complain(daemon, ExitCode::refused, text_of((*reply)["error"]));
-    } else if (const std::string url = text_of(reply->value("url", nlohmann::json())); !is_own_page(url)) {
+    } else if (const std::string url = reply->contains("url") ? text_of((*reply)["url"]) : ""; !is_own_page(url)) {
       result = complain(daemon, ExitCode::bad_answer, "the daemon tells no link: is it of another version?");
     } else if (options.print) {
       fmt::print("{}\n", url);

@@ -42,6 +42,10 @@ void DaemonPages::start() {
   spdlog::info("the pages are on http://127.0.0.1:{}; `telehug open` opens them", server_->port());
 }
 
+void DaemonPages::stop() {
+  if (server_) server_->stop();
+}
+
 void DaemonPages::tell(const std::string& topic, const Json& news) {
   if (server_) server_->tell(topic, news);
 }

@@ -28,11 +28,13 @@ struct DaemonPagesOptions {
 
 class DaemonPages {
  public:
-  // Adds the command "open" to `control`, which this must not outlive. A port that can't be had is no reason to have no
+  // Adds the command "open" to `control`, whose handlers use this: stop() comes before the end of `control`, and that
+  // before the end of this. A port that can't be had is no reason to have no
   // daemon: problem() tells it.
   DaemonPages(const WebConfig& config, const DaemonPagesOptions& options, ControlServer& control, const Clock& clock);
 
   void start();
+  void stop();
 
   // --- any thread ---
 

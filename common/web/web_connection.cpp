@@ -29,6 +29,9 @@ void add_common_headers(Fields& fields) {
   fields.set(http::field::cache_control, "no-store");
 }
 
+// What may fail on a socket whose other end has gone; the next reading or writing tells.
+void ignore(const boost::system::error_code& /*problem*/) {}
+
 std::string_view view(boost::beast::string_view text) {
   return {text.data(), text.size()};
 }
@@ -68,8 +71,8 @@ WebConnection::WebConnection(Socket socket, Host& host, std::uint64_t number)
       number_(number),
       timer_(socket_.get_executor()),
       buffer_(host.options().most_header_bytes + host.options().most_body_bytes) {
-  boost::system::error_code ignored;
-  (void)socket_.set_option(asio::ip::tcp::no_delay(true), ignored);
+  boost::system::error_code problem;
+  ignore(socket_.set_option(asio::ip::tcp::no_delay(true), problem));
 }
 
 void WebConnection::start() {
@@ -79,9 +82,9 @@ void WebConnection::start() {
 
 void WebConnection::close() {
   if (std::exchange(closed_, true)) return;
-  boost::system::error_code ignored;
-  (void)socket_.shutdown(Socket::shutdown_both, ignored);
-  (void)socket_.close(ignored);
+  boost::system::error_code problem;
+  ignore(socket_.shutdown(Socket::shutdown_both, problem));
+  ignore(socket_.close(problem));
   timer_.cancel();
   host_.closed(shared_from_this());
 }

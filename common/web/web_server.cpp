@@ -50,15 +50,12 @@ class WebServer::Service final : public WebConnection::Host, public std::enable_
   }
 
   // The connections are let go of while what they refer to is still there.
-  void end() {
+  void stop() {
     io_.stop();
     if (thread_.joinable()) thread_.join();
     const auto connections = std::exchange(connections_, {});
     for (const auto& connection : connections)
       connection->close();
-    acceptor_.close();
-    io_.restart();
-    io_.poll();
   }
 
   void start() {
@@ -184,9 +181,12 @@ WebServer::WebServer(const WebServerOptions& options, WebSiteOptions site, WebFi
     : service_(std::make_shared<Service>(options, std::move(site), std::move(files), std::move(ask), clock)) {}
 
 WebServer::~WebServer() {
-  service_->end();
+  stop();
 }
 
+void WebServer::stop() {
+  service_->stop();
+}
 void WebServer::start() {
   service_->start();
 }

@@ -48,11 +48,14 @@ class WebServer {
   // Listens, but answers nobody before start(). Throws std::runtime_error with a sentence if the port can't be had, and
   // what WebSite throws.
   WebServer(const WebServerOptions& options, WebSiteOptions site, WebFiles files, Ask ask, const Clock& clock);
-  ~WebServer();  // closes all connections, ends the thread
+  ~WebServer();  // as stop()
   WebServer(const WebServer&) = delete;
   WebServer& operator=(const WebServer&) = delete;
 
   void start();
+  // Closes all connections and ends the thread: nothing is asked of the daemon from here on. Links are still made, and
+  // lead nowhere.
+  void stop();
 
   [[nodiscard]] std::uint16_t port() const noexcept;
 

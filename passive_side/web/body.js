@@ -98,6 +98,7 @@ function beginOrders() {
   onOrder("stop", () => ({command: "stop", reason: "the wearer's page"}));
   onOrder("resume", () => ({command: "resume"}));
   onOrder("pause", () => ({command: isPaused() ? "unpause" : "pause"}));
+  onOrder("hug", () => ({command: "hug"}));
   onOrder("unmute-all", () => ({command: "unmute", all: true}));
   slider.addEventListener("input", () => {
     sliding = true;

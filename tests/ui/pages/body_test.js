@@ -72,6 +72,11 @@ describe("The wearer's page", () => {
     await page.getByText("Ready: you can be touched").waitFor();
   });
 
+  test("hugs back", async () => {
+    await page.getByRole("button", {name: "Hug back"}).click();
+    await eventually(async () => (await daemons.status("active")).last_hug, "the other side has seen the hug");
+  });
+
   test("has nothing serious for axe-core in either colour scheme", async () => {
     for (const colorScheme of ["light", "dark"]) {
       await page.emulateMedia({colorScheme});
@@ -154,7 +159,8 @@ describe("The wearer's page", () => {
 
   test("tries a motor", async () => {
     await page.locator("#trial-which").selectOption("12");
-    const ms = await page.evaluate(() => new Promise((lit) => {
+    const ms = await page.evaluate(() => new Promise((lit, fail) => {
+      setTimeout(() => fail(new Error("motor 12 does not light up")), 10_000);
       const group = document.querySelector("#picture [data-actuator='12']");
       const ordered = performance.now();
       new MutationObserver(() => group.querySelector(".runs") && lit(performance.now() - ordered))

@@ -71,7 +71,7 @@ describe("The parent's page", () => {
 
   test("lights the box that is touched, and says that it is felt", async () => {
     await daemons.startActive();
-    await eventually(status, "the daemon with a calibration");
+    await eventually(async () => (await status())?.peer?.connected, "the daemon with a calibration meets the other");
     page = await browser.open(await daemons.link(active));
     await eventually(felt, "a box is felt");
     await answers(/^Box \d+: the person on this computer feels it\.$/);

@@ -12,10 +12,10 @@ namespace {
 
 using Json = nlohmann::json;
 
-class Run {
+class ShellRun {
  public:
-  explicit Run(const std::string& script) : Run(std::vector<std::string>{"/bin/sh", "-c", script}) {}
-  explicit Run(std::vector<std::string> command)
+  explicit ShellRun(const std::string& script) : ShellRun(std::vector<std::string>{"/bin/sh", "-c", script}) {}
+  explicit ShellRun(std::vector<std::string> command)
       : run_(std::move(command), {[this](const Json& object) {
                                     if (objects_.empty()) first_.set_value();
                                     objects_.push_back(object);
@@ -35,35 +35,35 @@ class Run {
 };
 
 TEST(APairingRun, TellsEachObjectThatTheProgramPrints) {
-  Run run(R"(echo '{"code": "A"}'; echo '{"pair": {"id": "1"}}')");
+  ShellRun run(R"(echo '{"code": "A"}'; echo '{"pair": {"id": "1"}}')");
   EXPECT_EQ(run.end(), "");
   EXPECT_EQ(run.objects(), (std::vector<Json>{{{"code", "A"}}, {{"pair", {{"id", "1"}}}}}));
 }
 
 TEST(APairingRun, SaysWhyItFailedAsTheProgramDid) {
-  Run run("echo 'telehug: the code is over' >&2; exit 9");
+  ShellRun run("echo 'telehug: the code is over' >&2; exit 9");
   EXPECT_EQ(run.end(), "the code is over");
   EXPECT_TRUE(run.objects().empty());
 }
 
 TEST(APairingRun, SaysThatItFailedEvenIfTheProgramSaysNothing) {
-  EXPECT_EQ(Run("exit 1").end(), "the pairing broke off");
+  EXPECT_EQ(ShellRun("exit 1").end(), "the pairing broke off");
 }
 
 TEST(APairingRun, EndsWhenItIsCancelled) {
-  Run run("echo '{}'; exec sleep 100");
+  ShellRun run("echo '{}'; exec sleep 100");
   run.wait_for_an_object();
   run.cancel();
   EXPECT_EQ(run.end(), "the pairing broke off");
 }
 
 TEST(APairingRun, SaysWhichProgramIsMissing) {
-  EXPECT_EQ(Run(std::vector<std::string>{"/nowhere/telehug", "pair"}).end(),
+  EXPECT_EQ(ShellRun(std::vector<std::string>{"/nowhere/telehug", "pair"}).end(),
             "can't run /nowhere/telehug: No such file or directory");
 }
 
 TEST(APairingRun, DoesNotReadALineWithoutEnd) {
-  EXPECT_NE(Run("exec cat /dev/zero").end(), "");
+  EXPECT_NE(ShellRun("exec cat /dev/zero").end(), "");
 }
 
 }  // namespace

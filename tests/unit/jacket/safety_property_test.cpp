@@ -76,6 +76,7 @@ class Adversary {
       made.quiet_hours.push_back({whole(0, minutes_of_day - 1), whole(0, minutes_of_day - 1)});
     for (int n = one_in(2) ? whole(1, 3) : 0; n > 0; --n)
       made.muted_actuators.set(static_cast<std::size_t>(whole(0, 10)));
+    if (one_in(5)) made.strength = real(0, 1);
     return made;
   }
   std::optional<JacketTelemetry> telemetry(Timestamp now) {
