@@ -216,9 +216,10 @@ void ActiveDaemon::judge_sending(bool screen_known) {
 }
 
 // What touches the screen while touches don't go out touches nobody until it is lifted: a finger that closes the window
-// in front of the chat, a cloth.
+// in front of the chat, a cloth, a stroke on this PC's own programs.
 void ActiveDaemon::hold_back() {
-  if (!withholding_) return;
+  const bool switched_off = sending_switch_.mode() == SendingMode::off;
+  if (!withholding_ && !switched_off) return;
   rig_->pipeline.hold_back_contacts();
   for (const ContactState& contact : rig_->pipeline.contacts())
     if (contact.phase == Phase::down) ++own_state_.withheld;

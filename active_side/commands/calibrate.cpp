@@ -8,7 +8,6 @@
 #include <iostream>
 #include <memory>
 
-#include "calibration/calibration_file.hpp"
 #include "calibration/calibration_policy.hpp"
 #include "capture/rig_directory.hpp"
 #include "capture/virtual_rig/export_rig.hpp"
@@ -17,12 +16,9 @@
 #include "commands/utc_now.hpp"
 #include "config/locator.hpp"
 #include "config/places.hpp"
-#include "detection/make_detector.hpp"
-#include "detection/upright_picture.hpp"
 #include "eval/empty_rig.hpp"
 #include "eval/rig_calibration.hpp"
 #include "eval/temporary_directory.hpp"
-#include "finger/background_file.hpp"
 
 namespace telehug {
 namespace {
@@ -60,9 +56,10 @@ Result<CalibratedRig> from_virtual_rig(const std::string& source, const VirtualR
   const int touches = frames.empty() ? all : *std::max_element(frames.begin(), frames.end());
   const ExportSettings calibration_only{
       .calibration_touches = touches, .sequence_frames = 0, .single_frames = 0, .hard_frames = 0};
-  const auto seed = virtual_rig_seed(source);
-  const Status exported = seed ? export_rig_directory(random_rig(*seed), scratch.path(), calibration_only)
-                               : export_rig_directory(usual, scratch.path(), calibration_only);
+  const auto spec = virtual_rig_spec(source);
+  const Status exported = spec && spec->seed
+                              ? export_rig_directory(random_rig(*spec->seed), scratch.path(), calibration_only)
+                              : export_rig_directory(usual, scratch.path(), calibration_only);
   if (!exported) return exported.error();
   auto calibrated = from_recording(scratch.path(), model, frames);
   if (calibrated) calibrated->calibration.camera = source;
@@ -134,24 +131,6 @@ Status judge(const Calibration& calibration) {
   return Error{fmt::format("the calibration is not saved: {}", fmt::join(verdict.faults, "; "))};
 }
 
-// The background first: a daemon that runs reads both when the calibration has changed.
-Status write(const std::filesystem::path& path, const CalibratedRig& rig) {
-  std::error_code problem;
-  const std::filesystem::path background = background_file(path);
-  if (path.has_parent_path()) std::filesystem::create_directories(path.parent_path(), problem);
-  if (!rig.empty) {
-    std::filesystem::remove(background, problem);
-    fmt::print("there is no picture without a hand: `run` learns the background from its first pictures\n");
-    return write_calibration(path, rig.calibration);
-  }
-  UprightPicture turned(rig.calibration.image, is_upside_down(rig.calibration));
-  const cv::Mat& empty = turned.of(*rig.empty);
-  if (const Status written = write_background(background, empty, strip_layout(rig.calibration)); !written) {
-    return written;
-  }
-  return write_calibration(path, rig.calibration);
-}
-
 ExitCode run(const Options& options) {
   const auto config = load_config(options.config);
   if (!config) return fail(ExitCode::config, config.error());
@@ -160,7 +139,10 @@ ExitCode run(const Options& options) {
   const Calibration* const calibration = &calibrated->calibration;
   if (const Status worth = judge(*calibration); !worth) return fail(ExitCode::device, worth.error());
   const std::filesystem::path out = options.out.empty() ? rig_file(config->rig) : std::filesystem::path(options.out);
-  if (const Status written = write(out, *calibrated); !written) return fail(ExitCode::device, written.error());
+  if (!calibrated->empty)
+    fmt::print("there is no picture without a hand: `run` learns the background from its first pictures\n");
+  if (const Status written = save_calibrated_rig(out, *calibrated); !written)
+    return fail(ExitCode::device, written.error());
   fmt::print("calibrated: {}, screen {:.0f} x {:.0f} mm, camera {:.0f} mm {} the screen's top\nwritten to {}\n",
              calibration->camera, calibration->screen.width_mm, calibration->screen.height_mm,
              std::abs(calibration->camera_below_top_mm()), calibration->camera_below_top_mm() < 0 ? "above" : "below",

@@ -4,16 +4,11 @@
 #include <string>
 #include <vector>
 
-#include "calibration/calibration.hpp"
 #include "capture/frame_source.hpp"
 #include "common/result.hpp"
+#include "setup/calibrated_rig.hpp"
 
 namespace telehug {
-
-struct CalibratedRig {
-  Calibration calibration;
-  std::optional<cv::Mat> empty;  // how the camera sees the rig with nobody there
-};
 
 struct HandCalibration {
   ScreenSize screen;                // mm; pixels, if known

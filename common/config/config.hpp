@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What each side can be told by its configuration. The values written here are the defaults; keys.cpp says for every
-// one its name in the file, its range and its help.
+// What each side can be told by its configuration. The values written here are the defaults; the tables of keys
+// (key.hpp) say for every one its name in the file, its range and its help.
 #pragma once
 
 #include <string>

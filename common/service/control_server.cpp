@@ -15,6 +15,7 @@
 #include <utility>
 
 #include "common/outside_json.hpp"
+#include "service/accept_loop.hpp"
 #include "service/control_session.hpp"
 #include "service/control_socket.hpp"
 
@@ -29,7 +30,10 @@ constexpr std::size_t most_handed_over = 1024;
 class ControlServer::Service final : public ControlSession::Host {
  public:
   explicit Service(ControlServerOptions options)
-      : options_(std::move(options)), listening_(options_.socket, options_.group), acceptor_(io_), accept_again_(io_) {
+      : options_(std::move(options)),
+        listening_(options_.socket, options_.group),
+        acceptor_(io_),
+        accept_(acceptor_, [this](ControlSession::Socket socket) { welcome(std::move(socket)); }) {
     const int own = dup(listening_.fd());  // the acceptor closes what it is given
     if (own < 0) throw std::runtime_error("no file descriptor is left for the local socket");
     acceptor_.assign(asio::local::stream_protocol(), own);
@@ -42,7 +46,7 @@ class ControlServer::Service final : public ControlSession::Host {
   }
 
   void start() {
-    accept();
+    accept_.next();
     thread_ = std::thread([this] { io_.run(); });
   }
 
@@ -116,22 +120,6 @@ class ControlServer::Service final : public ControlSession::Host {
     }
   }
 
-  void accept() {
-    acceptor_.async_accept([this](const boost::system::error_code& problem, ControlSession::Socket socket) {
-      if (problem == asio::error::operation_aborted) return;
-      if (problem) {
-        // Most likely no descriptors are left; trying again at once would only spin.
-        accept_again_.expires_after(100ms);
-        accept_again_.async_wait([this](const boost::system::error_code& stopped) {
-          if (!stopped) accept();
-        });
-        return;
-      }
-      welcome(std::move(socket));
-      accept();
-    });
-  }
-
   void welcome(ControlSession::Socket socket) {
     const auto session = std::make_shared<ControlSession>(std::move(socket), *this);
     if (sessions_.size() >= options_.most_clients) {
@@ -172,7 +160,7 @@ class ControlServer::Service final : public ControlSession::Host {
   ControlSocket listening_;
   asio::io_context io_{1};
   asio::local::stream_protocol::acceptor acceptor_;
-  asio::steady_timer accept_again_;
+  AcceptLoop<asio::local::stream_protocol::acceptor> accept_;
   std::set<std::shared_ptr<ControlSession>> sessions_;
 
   std::mutex mutex_;

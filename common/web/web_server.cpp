@@ -12,6 +12,7 @@
 #include <thread>
 #include <utility>
 
+#include "service/accept_loop.hpp"
 #include "web/live_topics.hpp"
 #include "web/web_connection.hpp"
 
@@ -36,7 +37,7 @@ class WebServer::Service final : public WebConnection::Host, public std::enable_
         ask_(std::move(ask)),
         clock_(clock),
         acceptor_(io_),
-        accept_again_(io_) {
+        accept_(acceptor_, [this](tcp::socket socket) { welcome(std::move(socket)); }) {
     try {
       acceptor_.open(tcp::v4());
       acceptor_.set_option(tcp::acceptor::reuse_address(true));
@@ -59,7 +60,7 @@ class WebServer::Service final : public WebConnection::Host, public std::enable_
   }
 
   void start() {
-    accept();
+    accept_.next();
     thread_ = std::thread([this] { io_.run(); });
   }
 
@@ -120,22 +121,6 @@ class WebServer::Service final : public WebConnection::Host, public std::enable_
   }
 
  private:
-  void accept() {
-    acceptor_.async_accept([this](const boost::system::error_code& problem, tcp::socket socket) {
-      if (problem == asio::error::operation_aborted) return;
-      if (problem) {
-        // Most likely no descriptors are left; trying again at once would only spin.
-        accept_again_.expires_after(100ms);
-        accept_again_.async_wait([this](const boost::system::error_code& stopped) {
-          if (!stopped) accept();
-        });
-        return;
-      }
-      welcome(std::move(socket));
-      accept();
-    });
-  }
-
   void welcome(tcp::socket socket) {
     if (connections_.size() >= options_.most_connections) {
       ++refused_connections_;
@@ -163,7 +148,7 @@ class WebServer::Service final : public WebConnection::Host, public std::enable_
   const Clock& clock_;
   asio::io_context io_{1};
   tcp::acceptor acceptor_;
-  asio::steady_timer accept_again_;
+  AcceptLoop<tcp::acceptor> accept_;
   std::uint16_t port_ = 0;
   std::set<std::shared_ptr<WebConnection>> connections_;
   std::uint64_t accepted_ = 0;

@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "safety/current_budget.hpp"
+#include "safety/muted_place.hpp"
 
 namespace telehug {
 namespace {
@@ -116,6 +117,10 @@ Outputs::Asked Outputs::ask(SenderNumber sender, const Drive& wanted, const Perm
   }
   const bool was_on = output->shares.any();
   output->shares.drop(sender);
+  if (!output->enabled || is_muted(output->id, output->place, permission)) {
+    ++counters_.refused_muted;
+    return Asked::muted;
+  }
   if (!std::isfinite(wanted.strength)) {
     ++counters_.refused_not_finite;
     return Asked::refused;
@@ -123,10 +128,6 @@ Outputs::Asked Outputs::ask(SenderNumber sender, const Drive& wanted, const Perm
   if (wanted.strength <= 0 || wanted.end <= now) {
     counters_.off_ended += one_if(was_on && !output->shares.any());
     return Asked::ended;
-  }
-  if (!output->enabled || permission.muted_actuators.test(wanted.actuator)) {
-    ++counters_.refused_muted;
-    return Asked::muted;
   }
   if (level <= 0) {
     ++counters_.refused_by_limit;

@@ -62,9 +62,11 @@ class Outputs {
 
  private:
   struct Output {
-    explicit Output(const Actuator& actuator) : id(actuator.id), channel(actuator.channel), enabled(actuator.enabled) {}
+    explicit Output(const Actuator& actuator)
+        : id(actuator.id), channel(actuator.channel), place(actuator.place), enabled(actuator.enabled) {}
     std::uint8_t id;
     std::uint8_t channel;
+    BodyPoint place;
     bool enabled;
     Shares shares{};
     double given = 0;         // the last command's level

@@ -42,6 +42,9 @@ telehug_test(test_app_hug KIND integration SUBJECT jacket
 set_tests_properties(test_app_hug PROPERTIES RUN_SERIAL TRUE)  # as test_app_silence
 telehug_test(test_app_jacket_command KIND integration SUBJECT jacket
   SOURCES integration/app/jacket_command_test.cpp DEPS running_pair)
+telehug_test(test_app_heaters KIND integration SUBJECT jacket
+  SOURCES integration/app/heaters_test.cpp DEPS running_pair)
+set_tests_properties(test_app_heaters PROPERTIES RUN_SERIAL TRUE)  # as test_app_silence
 telehug_test(test_app_felt_feedback KIND integration SUBJECT jacket
   SOURCES integration/app/felt_feedback_test.cpp DEPS running_pair)
 telehug_test(test_app_panel KIND integration SUBJECT jacket

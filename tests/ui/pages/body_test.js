@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // The wearer's page in a real browser, on the real daemons, with a finger resting on the picture of the child.
 import assert from "node:assert/strict";
-import {after, before, describe, test as nodeTest} from "node:test";
+import {after, before, describe} from "node:test";
 
 import {Browser} from "./browser.js";
-import {Daemons, eventually} from "./daemons.js";
+import {Daemons, eventually, tellingLogsOf} from "./daemons.js";
 
 const {TELEHUG_BIN, TELEHUG_SOURCE, TELEHUG_UI_PACKAGES, TELEHUG_UI_PICTURES} = process.env;
 
@@ -13,15 +13,7 @@ let daemons;
 let browser;
 let page;
 
-// What the daemons said belongs to a failure.
-const test = (name, body) => nodeTest(name, async () => {
-  try {
-    await body();
-  } catch (failure) {
-    console.log(daemons.logs());
-    throw failure;
-  }
-});
+const test = tellingLogsOf(() => daemons);
 
 const status = () => daemons.status(passive);
 const lit = () => page.locator("#picture .runs").count();
@@ -117,6 +109,7 @@ describe("The wearer's page", () => {
     assert.equal(await page.evaluate(() => document.activeElement.dataset.box), "12");
     await page.keyboard.press("Space");
     await eventually(async () => (await status()).consent.muted_boxes?.includes(12), "box 12 is muted");
+    await page.locator('[data-box="12"][aria-pressed="true"]').waitFor();  // else the page would mute it again
     await page.keyboard.press("Space");
     await eventually(async () => !(await status()).consent.muted_boxes, "box 12 is unmuted");
 

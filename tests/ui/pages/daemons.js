@@ -5,9 +5,20 @@ import {execFile, spawn} from "node:child_process";
 import fs from "node:fs";
 import os from "node:os";
 import path from "node:path";
+import {test} from "node:test";
 import {promisify} from "node:util";
 
 const run = promisify(execFile);
+
+// Node's test(), which prints what the daemons said if it fails. `daemons`: a function, since they start later.
+export const tellingLogsOf = (daemons) => (name, body) => test(name, async () => {
+  try {
+    await body();
+  } catch (failure) {
+    console.log(daemons().logs());
+    throw failure;
+  }
+});
 
 // Waits until `condition` holds something, and returns it.
 export async function eventually(condition, what, longestMs = 20_000) {

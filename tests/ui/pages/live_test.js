@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // The parent's page in a real browser, on the real daemons, with a finger resting on the picture of the child.
 import assert from "node:assert/strict";
-import {after, before, describe, test as nodeTest} from "node:test";
+import {after, before, describe} from "node:test";
 
 import {Browser} from "./browser.js";
-import {Daemons, eventually} from "./daemons.js";
+import {Daemons, eventually, tellingLogsOf} from "./daemons.js";
 
 const {TELEHUG_BIN, TELEHUG_SOURCE, TELEHUG_UI_PACKAGES, TELEHUG_UI_PICTURES} = process.env;
 
@@ -15,15 +15,7 @@ let browser;
 let page;
 let wearers;
 
-// What the daemons said belongs to a failure.
-const test = (name, body) => nodeTest(name, async () => {
-  try {
-    await body();
-  } catch (failure) {
-    console.log(daemons.logs());
-    throw failure;
-  }
-});
+const test = tellingLogsOf(() => daemons);
 
 const status = () => daemons.status(active);
 const button = (name) => page.getByRole("button", {name});

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Two PCs become a pair on their pages: one shows a code, the other takes it. Real browser, real daemons.
 import assert from "node:assert/strict";
-import {after, before, describe, test as nodeTest} from "node:test";
+import {after, before, describe} from "node:test";
 
 import {Browser} from "./browser.js";
-import {Daemons, eventually} from "./daemons.js";
+import {Daemons, eventually, tellingLogsOf} from "./daemons.js";
 
 const {TELEHUG_BIN, TELEHUG_SOURCE, TELEHUG_UI_PACKAGES, TELEHUG_UI_PICTURES} = process.env;
 
@@ -13,15 +13,7 @@ let browser;
 let wearer;
 let parent;
 
-// What the daemons said belongs to a failure.
-const test = (name, body) => nodeTest(name, async () => {
-  try {
-    await body();
-  } catch (failure) {
-    console.log(daemons.logs());
-    throw failure;
-  }
-});
+const test = tellingLogsOf(() => daemons);
 
 async function openPairing(side) {
   const page = await browser.open(await daemons.link(side));

@@ -20,6 +20,11 @@ class SafetyStageWithConsent : public SafetyStageTest {
     permission.refusal = why;
     safety->permit(permission, now);
   }
+  void mute_box(std::size_t box) {
+    Permission permission;
+    permission.muted_boxes.set(box);
+    safety->permit(permission, now);
+  }
   void mute(std::uint8_t actuator) {
     Permission permission;
     permission.muted_actuators.set(actuator);
@@ -84,6 +89,41 @@ TEST_F(SafetyStageWithConsent, drives_no_muted_actuator_and_ends_it_at_once) {
   EXPECT_EQ(drive(1), FeltOutcome::muted);
   EXPECT_EQ(drive(3), FeltOutcome::driven);
   EXPECT_THAT(running(), ElementsAre(2));
+}
+
+TEST_F(SafetyStageWithConsent, drives_no_actuator_that_lies_in_a_muted_box_and_ends_it_at_once) {
+  JacketProfile profile = three_motors();
+  profile.actuators[0].place = middle_of(7);
+  profile.actuators[1].place = middle_of(8);
+  profile.actuators[2].place = middle_of(8);
+  profile.actuators[2].side = BodySide::back;
+  Actuator pad = motor(4, middle_of(8), {});
+  pad.kind = ActuatorKind::heater;
+  pad.channel = 0;
+  profile.actuators.push_back(pad);
+  start({.longest_drive = 2s}, profile);
+  jacket.status.telemetry = JacketTelemetry{.heard = now, .heaters = {{33.0, protocol::HeaterFault::none}}};
+  constexpr std::uint8_t outside = 1;
+  constexpr std::uint8_t inside[]{2, 3, 4};
+  ASSERT_EQ(drive(outside, 1, 2s), FeltOutcome::driven);
+  for (const std::uint8_t id : inside)
+    ASSERT_EQ(drive(id, 1, 2s), FeltOutcome::driven);
+  mute_box(8);
+  EXPECT_THAT(running(), IsEmpty());
+  EXPECT_EQ(jacket.celsius(0, now), 0);
+  for (const std::uint8_t id : inside)
+    EXPECT_EQ(drive(id), FeltOutcome::muted) << int{id};
+  EXPECT_EQ(drive(outside), FeltOutcome::driven);
+  live(100ms);
+  EXPECT_THAT(running(), ElementsAre(0));
+  EXPECT_EQ(jacket.celsius(0, now), 0);
+  mute_box(13);
+  EXPECT_EQ(drive(2), FeltOutcome::driven) << "the next box may do what this one may not";
+}
+
+TEST_F(SafetyStageWithConsent, says_that_a_muted_actuator_is_muted_when_its_touch_ends_as_well) {
+  mute(1);
+  EXPECT_EQ(safety->apply(0, {{1, 0, now}}, now).outcome, FeltOutcome::muted);
 }
 
 TEST_F(SafetyStageWithConsent, tells_for_each_contact_whether_it_was_muted_or_limited) {

@@ -1,0 +1,3 @@
+# SPDX-License-Identifier: Apache-2.0
+telehug_test(test_calibration_session KIND pipeline SUBJECT touch SOURCES pipeline/setup/calibration_session_test.cpp
+  DEPS active_setup active_capture opencv::imgproc)
