@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// From the live topic "fingers" to what fingers do. Its news are {"frames": [{"sequence", "contacts": [{"id", "phase",
-// "x_mm", "y_mm"}]}]}: the newest frames, oldest first. News may be missed; those that come repeat what the ones before
-// had, so that hardly a frame is.
+// From the live topic "fingers" (active_side/finger_feed.hpp) to what fingers do.
 export class TouchFrames {
   #hands;
   #last = 0;  // 0: none yet

@@ -9,7 +9,6 @@ const {TouchFrames} = await load("touch_frames.js");
 const {smoothPath, pathData} = await load("smooth_path.js");
 const {svgOfDrawing} = await load("svg_of_drawing.js");
 const {screenMap} = await load("screen_map.js");
-const {SendingPause} = await load("sending_pause.js");
 
 const looks = {colour: 1, width_mm: 4};
 const at = (x_mm, y_mm) => ({x_mm, y_mm});
@@ -78,18 +77,4 @@ test("a place on the screen is where the page shows it, and back", () => {
   const map = screenMap({left: 100, top: 0, width: 1900, height: 1500}, {left: 150, top: 80}, {width_mm: 380, height_mm: 300});
   assert.deepEqual(map.toPage(at(20, 30)), {x: 50, y: 70});
   assert.deepEqual(map.toScreen({x: 50, y: 70}), at(20, 30));
-});
-
-test("sending is off meanwhile and then as before, and stays off if it was", async () => {
-  for (const [before, sent] of [["auto", ["off", "auto"]], ["off", []]]) {
-    const modes = [];
-    const pause = new SendingPause(async ({command, mode}) => {
-      if (command === "send") modes.push(mode);
-      return {sending: {name: before}};
-    });
-    await pause.begin();
-    await pause.end();
-    await pause.end();
-    assert.deepEqual(modes, sent);
-  }
 });
