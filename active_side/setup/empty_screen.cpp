@@ -19,10 +19,10 @@ constexpr int looks_per_search = 6;  // pictures, in which edges are searched fo
 constexpr double moved_px = 6;       // of the border: the camera was turned
 constexpr int most_tries = 4;        // of finding marks: then it goes on without
 constexpr int most_backgrounds = 3;  // that are taken before somebody who seems to be there is believed to be furniture
-// A white page of the rigs of active_side/training is seen at 100 to 250 grey levels.
+// Chosen, not measured: the lightest tenth of a picture with a white page in it is well above.
 constexpr double dark_bright_page = 60;
 constexpr double black_part = 0.8;  // of what the white page was, compared with the rest of the picture
-// Noise of a covered lens is 2 to 3.
+// Chosen, not measured: little more than the noise of a covered lens.
 constexpr double dark_desk = 6;
 
 double percentile(const cv::Mat& bgr, double part) {
