@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "active_pages.hpp"
 #include "config/places.hpp"
 #include "daemon/daemon_settings.hpp"
 #include "local_outputs.hpp"
@@ -53,7 +54,10 @@ ActiveDaemon::ActiveDaemon(const ActiveConfig& config, Memberships memberships, 
                  return std::make_shared<ConnectedWearer>(
                      std::move(membership), session_, std::chrono::milliseconds(config_.heartbeat_timeout_ms), clock_);
                }),
-      control_(std::make_unique<ControlServer>(control_options(config.control, Side::active))) {
+      control_(std::make_unique<ControlServer>(control_options(config.control, Side::active))),
+      pages_(config.web, active_pages_options(), *control_, clock) {
+  pairing_.emplace(Side::active, pairs_folder(config.peer, Side::active), config.peer.loopback_only ? "127.0.0.1" : "",
+                   *control_);
   if (config_.overlay.show)
     overlay_.emplace(X11OverlayConfig{.display = {}, .monitor = config_.body_map.monitor}, clock);
   if (!config_.sending.hotkey.empty())
@@ -64,11 +68,13 @@ ActiveDaemon::ActiveDaemon(const ActiveConfig& config, Memberships memberships, 
 
 ActiveDaemon::~ActiveDaemon() {
   end_thread();
+  control_.reset();  // its handlers use the pages
 }
 
 ExitCode ActiveDaemon::run(Signals& signals) {
   load_rig_if_changed();
   control_->start();
+  pages_.start();
   touch_thread_ = std::thread([this] { touch_loop(); });
   notifier_.ready();
   spdlog::info("telehug-active {} runs; camera: {}", version, camera_name_);
@@ -85,6 +91,7 @@ ExitCode ActiveDaemon::run(Signals& signals) {
     if (request == SignalRequest::reload) calibration_time_.reset();
     load_rig_if_changed();
     tell_watchers();
+    tell_pages();
     tell_local_touch();
     serve_desktop();
     show_hugs();
@@ -97,6 +104,7 @@ ExitCode ActiveDaemon::run(Signals& signals) {
 }
 
 void ActiveDaemon::end_thread() {
+  pages_.stop();
   ending_ = true;
   if (touch_thread_.joinable()) touch_thread_.join();
   // The queue's own destructor (Boost 1.74) does not destroy what it holds.
@@ -208,9 +216,10 @@ void ActiveDaemon::judge_sending(bool screen_known) {
 }
 
 // What touches the screen while touches don't go out touches nobody until it is lifted: a finger that closes the window
-// in front of the chat, a cloth.
+// in front of the chat, a cloth, a stroke on this PC's own programs.
 void ActiveDaemon::hold_back() {
-  if (!withholding_) return;
+  const bool switched_off = sending_switch_.mode() == SendingMode::off;
+  if (!withholding_ && !switched_off) return;
   rig_->pipeline.hold_back_contacts();
   for (const ContactState& contact : rig_->pipeline.contacts())
     if (contact.phase == Phase::down) ++own_state_.withheld;

@@ -17,8 +17,10 @@
 #include "config/config.hpp"
 #include "connected_wearer.hpp"
 #include "daemon/connections.hpp"
+#include "daemon/pairing_desk.hpp"
 #include "daemon/stop_switch.hpp"
 #include "feedback/felt_feedback.hpp"
+#include "live_touches.hpp"
 #include "local_touch/local_touch.hpp"
 #include "notify/desktop_notifier.hpp"
 #include "overlay/x11_hotkey.hpp"
@@ -33,6 +35,7 @@
 #include "service/notifier.hpp"
 #include "service/signals.hpp"
 #include "touched_box.hpp"
+#include "web/daemon_pages.hpp"
 
 namespace telehug {
 
@@ -107,6 +110,7 @@ class ActiveDaemon {
   // Housekeeping
   void load_rig_if_changed();
   void tell_watchers();
+  void tell_pages();
   void tell_local_touch();
   void show_touched_box(const FaceState& face, FaceWorker* worker);
   void serve_desktop();
@@ -183,6 +187,8 @@ class ActiveDaemon {
   std::string hug_problem_;  // why it was not seen on the desktop
   bool told_recording_over_ = false;
   TouchedBox touched_box_;
+  LiveTouches live_touches_;
+  Timestamp told_pages_;
   std::optional<X11Overlay> overlay_;  // if it is wanted
   std::optional<X11Hotkey> hotkey_;    // likewise
   Timestamp desktop_served_;
@@ -199,7 +205,9 @@ class ActiveDaemon {
   SayOnChange say_hug_;
 
   Wearers wearers_;
+  std::optional<PairingDesk> pairing_;  // ends after what asks it
   std::unique_ptr<ControlServer> control_;
+  DaemonPages pages_;
   std::thread touch_thread_;
 };
 

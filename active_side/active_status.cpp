@@ -257,6 +257,11 @@ Json ActiveDaemon::status() const {
   for (const LocalTouchState& output : local_touch_.states())
     answer["local_touch"][output.name] = output.open ? "on" : output.problem.empty() ? "waits for the camera" : "fails";
   if (state.last_touch) answer["last_touch"] = touch_json(*state.last_touch);
+  {
+    const std::lock_guard lock(words_mutex_);
+    answer["calibrated"] = rig_problem_.empty();
+  }
+  pages_.add_status(answer);
   return answer;
 }
 
@@ -312,6 +317,7 @@ void ActiveDaemon::tell_watchers() {
   SentTouch touch;
   while (sent_touches_.pop(touch)) {
     touched_box_.sent(touch.contact);
+    live_touches_.sent(touch.contact, clock_.now());
     if (!control_->has_watchers()) continue;
     Json event = touch_json(touch);
     event["event"] = "touch";
@@ -322,6 +328,7 @@ void ActiveDaemon::tell_watchers() {
     Felt felt;
     while (wearer->felt.pop(felt)) {
       touched_box_.felt(felt);
+      live_touches_.felt(felt, wearer->membership().pair ? wearer->name() : "");
       if (feedback_) feedback_->felt(felt);
       Json event = felt_json(felt);
       if (wearer->membership().pair) event["wearer"] = wearer->name();

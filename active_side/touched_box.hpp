@@ -25,13 +25,15 @@ class TouchedBox {
     }
     const bool another = !shown_ || contact.id != contact_;
     if (another && contact.phase != Phase::down) return;
-    if (another) shown_ = Shown{};
+    if (another) shown_ = Shown{.felt = felt_ == contact.id};
     contact_ = contact.id;
     shown_->box = contact.box;
   }
 
   void felt(const Felt& felt) {
-    if (shown_ && felt.contact_id == contact_ && felt.outcome == FeltOutcome::driven) shown_->felt = true;
+    if (felt.outcome != FeltOutcome::driven) return;
+    felt_ = felt.contact_id;
+    if (shown_ && felt.contact_id == contact_) shown_->felt = true;
   }
 
   // Nothing is sent any more.
@@ -41,6 +43,7 @@ class TouchedBox {
 
  private:
   std::uint32_t contact_ = 0;
+  std::optional<std::uint32_t> felt_;  // the contact felt last: its answer may be here before itself
   std::optional<Shown> shown_;
 };
 

@@ -23,6 +23,9 @@ function(telehug_settings target)
       # GCC's manual: instrumented code makes these warnings err; the other builds keep them.
       target_compile_options(${target} PRIVATE -Wno-maybe-uninitialized -Wno-stringop-overflow)
     endif()
+    if(TELEHUG_SANITIZER STREQUAL thread)
+      target_compile_options(${target} PRIVATE -Wno-tsan)  # Asio's fences, which it does not know
+    endif()
   endif()
   if(NOT ARGN STREQUAL "USES_FASTDDS")
     target_compile_options(${target} PRIVATE -include ${PROJECT_SOURCE_DIR}/cmake/no_fastdds.hpp)

@@ -47,13 +47,19 @@ Result<std::vector<std::size_t>> numbers(const Json& request, const char* key, s
   return found;
 }
 
-std::string until_text(const Consent& consent, FeltOutcome refusal, std::chrono::sys_seconds now) {
+// The time of day at which nothing is felt until; empty: none is known.
+std::string end_of(const Consent& consent, FeltOutcome refusal, std::chrono::sys_seconds now) {
   if (refusal == FeltOutcome::quiet_hours) {
-    const auto span = quiet_span_at(consent.quiet_hours, local_minute(now));
-    return span ? "until " + time_of_day_text(span->end_min) : "";
+    const auto span = quiet_span_at(consent, local_minute(now));
+    return span ? time_of_day_text(span->end_min) : "";
   }
   const bool ends = consent.pause && consent.pause->until;
-  return ends ? "until " + time_of_day_text(local_minute(*consent.pause->until)) : "until further notice";
+  return ends ? time_of_day_text(local_minute(*consent.pause->until)) : "";
+}
+
+std::string until_text(const Consent& consent, FeltOutcome refusal, std::chrono::sys_seconds now) {
+  const std::string end = end_of(consent, refusal, now);
+  return end.empty() ? "until further notice" : "until " + end;
 }
 
 Json mutes_json(const Consent& consent) {
@@ -85,6 +91,8 @@ void ConsentSwitch::serve(ControlServer& control, std::function<void()> changed)
   });
   control.on("unpause", [this](const Json&) { return unpause(); });
   control.on("mute", [this](const Json& request) { return mute(request, true); });
+  control.on("strength", [this](const Json& request) { return strength(request); });
+  control.on("quiet", [this](const Json& request) { return quiet(request); });
   control.on("unmute", [this](const Json& request) { return mute(request, false); });
 }
 
@@ -134,6 +142,27 @@ Json ConsentSwitch::mute(const Json& request, bool muted) {
   return set(wanted, mutes_json(wanted));
 }
 
+Json ConsentSwitch::strength(const Json& request) {
+  const auto given = request.find("strength");
+  const double strength = given != request.end() && given->is_number() ? given->get<double>() : 0;
+  if (!(strength > 0 && strength <= 1))
+    return {{"error", "the strength must be a number above 0, at most 1: the share of what the limits allow"}};
+  Consent wanted = consent();
+  wanted.strength = strength;
+  return set(wanted, {{"side", "passive"}, {"strength", strength}});
+}
+
+Json ConsentSwitch::quiet(const Json& request) {
+  const auto given = request.find("hours");
+  if (given == request.end() || !given->is_string())
+    return {{"error", "the hours must be a text such as \"20:30-07:00,13:00-14:00\"; an empty one: none"}};
+  const auto hours = parse_quiet_hours(given->get<std::string>());
+  if (!hours) return {{"error", hours.error().message}};
+  Consent wanted = consent();
+  wanted.own_quiet_hours = *hours;
+  return set(wanted, {{"side", "passive"}, {"own_quiet_hours", quiet_hours_text(*hours)}});
+}
+
 Json ConsentSwitch::set(const Consent& consent, Json answer) {
   {
     const std::lock_guard lock(mutex_);
@@ -173,7 +202,10 @@ Json consent_json(const Consent& consent, std::chrono::sys_seconds now) {
   const auto refusal = permission_at(consent, now, local_minute(now)).refusal;
   Json json{{"name", refusal ? name_of(*refusal) : "open"}};
   if (refusal) json["why"] = until_text(consent, *refusal, now);
+  if (refusal && !end_of(consent, *refusal, now).empty()) json["until"] = end_of(consent, *refusal, now);
+  if (consent.strength < 1) json["strength"] = consent.strength;
   if (!consent.quiet_hours.empty()) json["quiet_hours"] = quiet_hours_text(consent.quiet_hours);
+  if (!consent.own_quiet_hours.empty()) json["own_quiet_hours"] = quiet_hours_text(consent.own_quiet_hours);
   if (consent.muted_boxes.any()) json["muted_boxes"] = numbers_in(consent.muted_boxes);
   if (consent.muted_actuators.any()) json["muted_actuators"] = numbers_in(consent.muted_actuators);
   return json;

@@ -2,7 +2,6 @@
 #include <fmt/core.h>
 
 #include <CLI/CLI.hpp>
-#include <algorithm>
 #include <cstdio>
 #include <exception>
 
@@ -38,14 +37,6 @@ ExitCode fail(ExitCode code, const std::string& message) {
   return code;
 }
 
-// Of those that telehug-jacket-sim knows, the one that such a jacket has.
-std::string board_of(const JacketProfile& profile) {
-  if (profile.protocol == JacketProtocol::legacy) return "legacy";
-  const bool heats = std::ranges::any_of(
-      profile.actuators, [](const Actuator& actuator) { return actuator.kind == ActuatorKind::heater; });
-  return heats ? "motors12_heaters2" : "motors16";
-}
-
 ExitCode run(const Options& options) {
   Signals signals;
   ConfigSources sources = usual_config_sources();
@@ -60,11 +51,7 @@ ExitCode run(const Options& options) {
   if (profile && !config->jacket.overrides.empty())
     profile = with_overrides(*std::move(profile), config->jacket.overrides);
   if (!profile) return fail(ExitCode::config, profile.error().message);
-  LinkOptions link_options;
-  link_options.baud = static_cast<unsigned>(config->jacket.baud != 0 ? config->jacket.baud : profile->baud);
-  if (profile->protocol == JacketProtocol::legacy) link_options.protocol = LinkProtocol::legacy;
-  link_options.simulator.board = board_of(*profile);
-  auto link = make_link(config->jacket.link, link_options);
+  auto link = make_link(config->jacket.link, link_options(*profile, config->jacket.baud));
   if (!link) return fail(ExitCode::device, link.error().message);
   const SteadyClock clock;
   try {

@@ -8,6 +8,7 @@
 #include "config/places.hpp"
 #include "config/quiet_hours_text.hpp"
 #include "daemon/daemon_settings.hpp"
+#include "passive_pages.hpp"
 #include "peer/session_id.hpp"
 
 namespace telehug {
@@ -43,6 +44,7 @@ PassiveDaemon::PassiveDaemon(const PassiveConfig& config, Memberships membership
       events_unvouched_(metrics_.counter("events_without_heartbeat")),
       total_latency_(metrics_.latency("event_to_link")),
       consent_(consent_file(config.consent), parse_quiet_hours(config.consent.quiet_hours).value(), profile_),
+      touches_today_(wall_time()),
       hug_back_(session_),
       hugs_sent_(metrics_.counter("hugs_sent")),
       hugs_too_soon_(metrics_.counter("hugs_too_soon")),
@@ -50,7 +52,10 @@ PassiveDaemon::PassiveDaemon(const PassiveConfig& config, Memberships membership
                [this](Membership membership, const Senders::List& others) {
                  return connect(std::move(membership), others);
                }),
-      control_(std::make_unique<ControlServer>(control_options(config.control, Side::passive))) {
+      control_(std::make_unique<ControlServer>(control_options(config.control, Side::passive))),
+      pages_(config.web, passive_pages_options(), *control_, clock) {
+  pairing_.emplace(Side::passive, pairs_folder(config.peer, Side::passive),
+                   config.peer.loopback_only ? "127.0.0.1" : "", *control_);
   wanted_ = consent_.consent();
   panel_ = make_panel();  // not before it is known that no other daemon has its lines
   answer_commands();
@@ -59,6 +64,7 @@ PassiveDaemon::PassiveDaemon(const PassiveConfig& config, Memberships membership
 
 PassiveDaemon::~PassiveDaemon() {
   end_thread();
+  control_.reset();  // its handlers use the pages
 }
 
 std::shared_ptr<ConnectedSender> PassiveDaemon::connect(Membership membership, const Senders::List& others) {
@@ -81,6 +87,7 @@ std::shared_ptr<ConnectedSender> PassiveDaemon::connect(Membership membership, c
 
 ExitCode PassiveDaemon::run(Signals& signals) {
   control_->start();
+  pages_.start();
   panel_->start();  // before anything can be driven
   drive_thread_ = std::thread([this] { drive_loop(); });
   notifier_.ready();
@@ -100,6 +107,8 @@ ExitCode PassiveDaemon::run(Signals& signals) {
     if (!paired) break;
     tzset();  // follows a time zone that is changed meanwhile; looks at no more than the file's date if it is not
     tell_watchers();
+    tell_running_to_all();
+    tell_pages();
     tell_of_limits();
     answer_hug_button();
     keep_connections();
@@ -122,6 +131,7 @@ bool PassiveDaemon::follow_pairs() {
 }
 
 void PassiveDaemon::end_thread() {
+  pages_.stop();
   ending_ = true;
   if (drive_thread_.joinable()) drive_thread_.join();
   panel_->stop();

@@ -7,6 +7,7 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <set>
 #include <stdexcept>
 #include <string>
 #include <thread>
@@ -18,6 +19,7 @@
 #include "connected_sender.hpp"
 #include "consent_switch.hpp"
 #include "daemon/connections.hpp"
+#include "daemon/pairing_desk.hpp"
 #include "daemon/stop_switch.hpp"
 #include "gpio/panel.hpp"
 #include "hug_back.hpp"
@@ -32,6 +34,8 @@
 #include "service/metrics.hpp"
 #include "service/notifier.hpp"
 #include "service/signals.hpp"
+#include "touches_today.hpp"
+#include "web/daemon_pages.hpp"
 
 namespace telehug {
 
@@ -107,6 +111,8 @@ class PassiveDaemon {
   // Housekeeping
   [[nodiscard]] bool follow_pairs();
   void tell_watchers();
+  void tell_running_to_all();
+  void tell_pages();
   void tell_of_limits();
   void keep_connections();
   void answer_commands();
@@ -170,7 +176,11 @@ class PassiveDaemon {
   SayOnChange say_jacket_;
   SayOnChange say_consent_;
   LimitNotes limit_notes_;
+  Timestamp told_pages_;
+  std::set<std::uint8_t> runs_;          // as last heard of the drive thread
+  std::set<std::uint8_t> running_told_;  // to the pages
 
+  TouchesToday touches_today_;
   std::uint64_t trials_ordered_ = 0;  // the control thread's
   std::mutex hug_mutex_;
   HugBack hug_back_;  // guarded by it
@@ -179,7 +189,9 @@ class PassiveDaemon {
 
   Senders senders_;
   std::unique_ptr<Panel> panel_;
+  std::optional<PairingDesk> pairing_;  // ends after what asks it
   std::unique_ptr<ControlServer> control_;
+  DaemonPages pages_;
   std::thread drive_thread_;
 };
 

@@ -77,7 +77,11 @@ void PassivePipeline::answer(const JacketPlan& plan, const SafetyVerdict& verdic
     if (outcome == FeltOutcome::driven) {
       outcome = verdict.outcome_at({planned.actuators.data(), planned.actuators.size()});
     }
-    give(planned, outcome, event, received);
+    ContactAnswer given = planned;
+    given.actuators.erase(std::remove_if(given.actuators.begin(), given.actuators.end(),
+                                         [&verdict](std::uint8_t id) { return verdict.refuses(id); }),
+                          given.actuators.end());
+    give(given, outcome, event, received);
   }
   for (const Transition& muted : muted_.left_out()) {
     const Contact& contact = muted.contact;

@@ -3,48 +3,15 @@
 // What the passive daemon tells people of its limits, heaters and of what the wearer wants.
 #include <fmt/core.h>
 
-#include <cmath>
-
 #include "daemon/status_parts.hpp"
+#include "heater_status.hpp"
 #include "passive_daemon.hpp"
+#include "safety/muted_place.hpp"
 
 namespace telehug {
 namespace {
 
 using Json = nlohmann::json;
-
-const char* name_of(HeaterState state) {
-  constexpr const char* names[] = {"ready", "no telemetry", "no reading", "fault", "too warm", "cooling down"};
-  return names[static_cast<std::size_t>(state)];
-}
-
-// Completes "the heater ... is off: ".
-std::string sentence(const HeaterReport& heater) {
-  using protocol::HeaterFault;
-  if (heater.state == HeaterState::no_telemetry) return "nothing has been heard of its temperature for 2 s";
-  if (heater.state == HeaterState::no_reading) return "its sensor tells no temperature";
-  if (heater.state == HeaterState::too_warm) return "its sensor tells 41 C or more";
-  switch (heater.fault) {
-    case HeaterFault::sensor_open:
-      return "its temperature sensor is not connected";
-    case HeaterFault::sensor_short:
-      return "its temperature sensor has a short circuit";
-    case HeaterFault::too_hot:
-      return "it was too hot";
-    case HeaterFault::no_rise:
-      return "its sensor got no warmer while it heated: one of them has come off";
-    case HeaterFault::rises_too_fast:
-      return "it got warm too fast";
-    case HeaterFault::none:
-    case HeaterFault::cooling_down:
-      break;
-  }
-  return "the jacket reports a fault of it";
-}
-
-Json celsius_json(double celsius) {
-  return std::round(celsius * 10) / 10;
-}
 
 }  // namespace
 
@@ -65,21 +32,28 @@ void PassiveDaemon::add_safety_problems(Json& list, const DriveThreadState& now)
   if (now.link.state != LinkState::armed) return;
   for (const HeaterReport& heater : now.heaters) {
     if (heater.state == HeaterState::ready || heater.state == HeaterState::cooling_down) continue;
-    list.push_back(problem_json(fmt::format("the heater \"{}\" is off: {}", actuator_name(heater.id), sentence(heater)),
-                                "take the jacket off, check the heater, its sensor and their cables, then unplug the "
-                                "jacket and plug it in again; the motors go on without it"));
+    list.push_back(
+        problem_json(fmt::format("the heater \"{}\" is off: {}", actuator_name(heater.id), heater_state_text(heater)),
+                     "take the jacket off, check the heater, its sensor and their cables, then unplug the "
+                     "jacket and plug it in again; the motors go on without it"));
   }
 }
 
 void PassiveDaemon::add_safety_status(Json& answer, const DriveThreadState& now) const {
-  answer["consent"] = consent_json(consent_.consent(), wall_time());
+  const Consent consent = consent_.consent();
+  const WallTime time = wall_time();
+  answer["consent"] = consent_json(consent, time);
   if (now.heaters.empty()) return;
+  const std::string refusal = now.stopped ? "stopped: " + now.stop_reason : refusal_text(consent, time);
+  const Permission permission = permission_at(consent, time, local_minute(time));
   Json heaters = Json::array();
   for (const HeaterReport& heater : now.heaters) {
-    Json json{{"id", heater.id}, {"name", actuator_name(heater.id)}, {"state", name_of(heater.state)}};
-    json["set_point_celsius"] = celsius_json(heater.set_point_celsius);
-    if (heater.celsius && std::isfinite(*heater.celsius)) json["celsius"] = celsius_json(*heater.celsius);
-    heaters.push_back(std::move(json));
+    const Actuator& actuator = profile_.actuators.at(profile_.index_of(heater.id).value());
+    heaters.push_back(heater_json(heater, actuator.name,
+                                  {.jacket_answers = now.link.state == LinkState::armed,
+                                   .refusal = refusal,
+                                   .muted = is_muted(actuator.id, actuator.place, permission),
+                                   .enabled = actuator.enabled}));
   }
   answer["heaters"] = std::move(heaters);
 }

@@ -87,6 +87,8 @@ Json PassiveDaemon::status() const {
   add_safety_status(answer, now);
   add_connections(answer, connected);
   add_panel(answer);
+  answer["today"] = touches_today_.json(wall_time());
+  pages_.add_status(answer);
   if (now.last_felt) {
     answer["last_touch"] = felt_json(*now.last_felt);
     answer["last_touch"]["gesture"] = name_of(now.last_gesture);
@@ -98,6 +100,7 @@ void PassiveDaemon::tell_watchers() {
   const auto senders = senders_.all();
   GivenAnswer answer;
   while (felt_.pop(answer)) {
+    if (answer.felt.phase == Phase::down && answer.felt.outcome == FeltOutcome::driven) touches_today_.add(wall_time());
     if (!control_->has_watchers()) continue;
     Json event = felt_json(answer.felt);
     event["event"] = "felt";
@@ -105,13 +108,6 @@ void PassiveDaemon::tell_watchers() {
     const auto of = std::ranges::find(senders, answer.sender, [](const auto& sender) { return sender->number; });
     if (of != senders.end() && (*of)->membership().pair) event["sender"] = (*of)->name();
     control_->broadcast(std::move(event));
-  }
-  RunningChange change;
-  while (running_.pop(change)) {
-    control_->broadcast({{"event", "running"},
-                         {"side", "passive"},
-                         {"time_ns", change.time_ns},
-                         {"actuators", id_list(change.actuators)}});
   }
   const DriveThreadState now = state();
   if (now.link.state == LinkState::armed && !now.link.answers) {

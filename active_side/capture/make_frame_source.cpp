@@ -6,6 +6,7 @@
 #include <charconv>
 
 #include "capture/recording.hpp"
+#include "capture/virtual_rig/directed_rig.hpp"
 #include "capture/virtual_rig/random_rig.hpp"
 #include "capture/virtual_rig/virtual_rig.hpp"
 #include "capture/webcam.hpp"
@@ -30,23 +31,33 @@ std::unique_ptr<FrameSource> recording(std::string_view place, const CaptureSett
   return std::make_unique<Recording>(std::move(recorded), clock);
 }
 
-Result<std::unique_ptr<FrameSource>> virtual_rig(VirtualRigSettings rig, const CaptureSettings& settings,
+Result<std::unique_ptr<FrameSource>> virtual_rig(const VirtualRigSpec& spec, const CaptureSettings& settings,
                                                  const Clock& clock) {
+  VirtualRigSettings rig = spec.seed ? random_rig(*spec.seed).settings : settings.virtual_rig;
   rig.real_time = settings.real_time;
   if (const Status checked = check_virtual_rig(rig); !checked) return checked.error();
-  return std::unique_ptr<FrameSource>(std::make_unique<VirtualRig>(std::move(rig), clock));
+  if (spec.directed_from.empty()) return std::unique_ptr<FrameSource>(std::make_unique<VirtualRig>(rig, clock));
+  return std::unique_ptr<FrameSource>(std::make_unique<DirectedRig>(rig, spec.directed_from, clock));
 }
 
 }  // namespace
 
-std::optional<std::uint64_t> virtual_rig_seed(std::string_view spec) {
+std::optional<VirtualRigSpec> virtual_rig_spec(std::string_view spec) {
+  VirtualRigSpec rig;
+  if (const auto question = spec.find('?'); question != std::string_view::npos) {
+    rig.directed_from = spec.substr(question + 1);
+    if (rig.directed_from.empty()) return std::nullopt;
+    spec = spec.substr(0, question);
+  }
+  if (spec == "virtual") return rig;
   constexpr std::string_view prefix = "virtual:";
   if (!spec.starts_with(prefix)) return std::nullopt;
   spec.remove_prefix(prefix.size());
   std::uint32_t seed = 0;
   const auto [end, error] = std::from_chars(spec.data(), spec.data() + spec.size(), seed);
   if (error != std::errc() || end != spec.data() + spec.size()) return std::nullopt;
-  return seed;
+  rig.seed = seed;
+  return rig;
 }
 
 Result<std::unique_ptr<FrameSource>> make_frame_source(std::string_view spec, const CaptureSettings& settings,
@@ -56,12 +67,11 @@ Result<std::unique_ptr<FrameSource>> make_frame_source(std::string_view spec, co
   const std::string_view rest = colon == std::string_view::npos ? std::string_view{} : spec.substr(colon + 1);
   if (kind == "webcam") return webcam(std::string(rest), settings, clock);
   if (kind == "replay" && !rest.empty()) return recording(rest, settings, clock);
-  if (spec == "virtual") return virtual_rig(settings.virtual_rig, settings, clock);
-  if (const auto seed = virtual_rig_seed(spec)) return virtual_rig(random_rig(*seed).settings, settings, clock);
-  return Error{
-      fmt::format("'{}' is no source of pictures; sources are webcam, webcam:DEVICE, replay:DIR, "
-                  "replay:DIR?PART (frames, hard or sequence), virtual and virtual:SEED (a whole number)",
-                  spec)};
+  if (const auto rig = virtual_rig_spec(spec)) return virtual_rig(*rig, settings, clock);
+  return Error{fmt::format(
+      "'{}' is no source of pictures; sources are webcam, webcam:DEVICE, replay:DIR, "
+      "replay:DIR?PART (frames, hard or sequence), virtual and virtual:SEED (a whole number), both also with ?DIR",
+      spec)};
 }
 
 }  // namespace telehug

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
@@ -26,8 +27,12 @@ struct CaptureSettings {
   VirtualRigSettings virtual_rig;  // its real_time is overridden by the one above
 };
 
-// The number of "virtual:SEED".
-std::optional<std::uint64_t> virtual_rig_seed(std::string_view spec);
+// A virtual rig that a source names, see below.
+struct VirtualRigSpec {
+  std::optional<std::uint64_t> seed;
+  std::filesystem::path directed_from;  // empty: it plays its own script
+};
+std::optional<VirtualRigSpec> virtual_rig_spec(std::string_view spec);
 
 // The source that `spec` names:
 //   webcam               settings.device
@@ -36,6 +41,8 @@ std::optional<std::uint64_t> virtual_rig_seed(std::string_view spec);
 //   replay:DIR?PART      its part "frames", "hard" or "sequence"
 //   virtual              the virtual rig
 //   virtual:SEED         another one, drawn at random; the same for the same number (0 to 4294967295)
+//   virtual?DIR          either of them, but DIR/screen.png is on its screen and DIR/hand.csv tells what its user does
+//   virtual:SEED?DIR     (virtual_rig/directed_rig.hpp)
 // It is not open yet. Only a spec or settings that make no sense are errors here. `clock` must outlive the source.
 Result<std::unique_ptr<FrameSource>> make_frame_source(std::string_view spec, const CaptureSettings& settings,
                                                        const Clock& clock);

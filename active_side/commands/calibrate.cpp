@@ -57,9 +57,10 @@ Result<CalibratedRig> from_virtual_rig(const std::string& source, const VirtualR
   const int touches = frames.empty() ? all : *std::max_element(frames.begin(), frames.end());
   const ExportSettings calibration_only{
       .calibration_touches = touches, .sequence_frames = 0, .single_frames = 0, .hard_frames = 0};
-  const auto seed = virtual_rig_seed(source);
-  const Status exported = seed ? export_rig_directory(random_rig(*seed), scratch.path(), calibration_only)
-                               : export_rig_directory(usual, scratch.path(), calibration_only);
+  const auto spec = virtual_rig_spec(source);
+  const Status exported = spec && spec->seed
+                              ? export_rig_directory(random_rig(*spec->seed), scratch.path(), calibration_only)
+                              : export_rig_directory(usual, scratch.path(), calibration_only);
   if (!exported) return exported.error();
   auto calibrated = from_recording(scratch.path(), model, frames);
   if (calibrated) calibrated->calibration.camera = source;

@@ -92,9 +92,9 @@ Result<std::unique_ptr<ScreenRecording>> open_screen(std::unique_ptr<ScreenGrabb
 // A virtual rig knows the truth and need not wait for the clock: it is written with its calibration, single frames and
 // a sequence of that many seconds.
 ExitCode export_virtual_rig(const std::string& source, const Options& options) {
-  const auto seed = virtual_rig_seed(source);
-  if (source != "virtual" && !seed) return fail(ExitCode::config, Error{"\"" + source + "\" names no virtual rig"});
-  RandomRig rig = seed ? random_rig(*seed) : rig_of(VirtualRigSettings{});
+  const auto spec = virtual_rig_spec(source);
+  if (!spec) return fail(ExitCode::config, Error{"\"" + source + "\" names no virtual rig"});
+  RandomRig rig = spec->seed ? random_rig(*spec->seed) : rig_of(VirtualRigSettings{});
   const ExportSettings settings{.calibration_touches = 9,
                                 .sequence_frames = static_cast<int>(options.seconds * rig.settings.fps),
                                 .single_frames = options.frames,

@@ -2,7 +2,6 @@
 #include "feedback/felt_feedback.hpp"
 
 #include "config/places.hpp"
-#include "feedback/felt_pulse.hpp"
 #include "jacket/load_jacket_profile.hpp"
 #include "link/make_link.hpp"
 
@@ -10,7 +9,6 @@ namespace telehug {
 namespace {
 
 constexpr Duration round = 10ms;  // the safety stage wants to be served this often
-constexpr SenderNumber wearer = 0;
 
 }  // namespace
 
@@ -18,19 +16,14 @@ Result<std::unique_ptr<FeltFeedback>> FeltFeedback::make(const FeedbackConfig& c
   if (config.link.empty()) return std::unique_ptr<FeltFeedback>();
   auto profile = load_jacket_profile(installed_jacket_file(config.profile));
   if (!profile) return profile.error();
-  LinkOptions options;
-  options.baud = static_cast<unsigned>(profile->baud);
-  if (profile->protocol == JacketProtocol::legacy) options.protocol = LinkProtocol::legacy;
-  auto link = make_link(config.link, options);
+  auto link = make_link(config.link, link_options(*profile));
   if (!link) return link.error();
   return std::make_unique<FeltFeedback>(*std::move(profile), *std::move(link), config.strength, clock);
 }
 
 FeltFeedback::FeltFeedback(JacketProfile profile, std::unique_ptr<JacketLink> link, double strength, const Clock& clock)
     : clock_(clock),
-      profile_(std::move(profile)),
-      strength_(strength),
-      safety_(std::move(link), profile_, {}),
+      drive_(std::move(profile), std::move(link), strength),
       problem_("it is being connected"),
       thread_([this] { loop(); }) {}
 
@@ -54,27 +47,18 @@ void FeltFeedback::loop() {
       next = clock_.now();  // rounds that were missed are not made up for
     }
   }
-  safety_.stop("telehug-active ends", clock_.now());
+  drive_.follow_stop(true, clock_.now());
 }
 
 void FeltFeedback::serve(Timestamp now) {
-  if (stopped_ && !safety_.stopped()) safety_.stop("stopped", now);
-  if (!stopped_ && safety_.stopped()) safety_.resume();
+  drive_.follow_stop(stopped_, now);
   answers_.consume_all([&](const Felt& answer) {
-    const auto pulse = felt_pulse(answer, profile_, strength_, now);
-    if (!pulse) return;
-    // The answer itself is the sign of life that vouches for its pulse.
-    safety_.on_heartbeat(wearer, now);
-    safety_.apply(wearer, *pulse, now);
+    drive_.follow_stop(stopped_, now);  // one that came after a stop must find it
+    drive_.feel(answer, now);
   });
-  safety_.tick(now);
-  const LinkStatus& link = safety_.link_status();
+  drive_.tick(now);
   const std::lock_guard lock(mutex_);
-  if (link.state == LinkState::armed) {
-    problem_.clear();
-  } else {
-    problem_ = link.device + ": " + link.problem;
-  }
+  problem_ = drive_.problem();
 }
 
 }  // namespace telehug

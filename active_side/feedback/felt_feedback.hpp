@@ -16,8 +16,8 @@
 #include "common/messages.hpp"
 #include "common/result.hpp"
 #include "config/config.hpp"
+#include "feedback/felt_drive.hpp"
 #include "jacket/jacket_profile.hpp"
-#include "safety/safety_stage.hpp"
 
 namespace telehug {
 
@@ -44,9 +44,7 @@ class FeltFeedback {
   void serve(Timestamp now);
 
   const Clock& clock_;
-  const JacketProfile profile_;
-  const double strength_;
-  SafetyStage safety_;  // the thread's
+  FeltDrive drive_;  // the thread's
   std::atomic<bool> stopped_ = false;
   std::atomic<bool> ending_ = false;
   boost::lockfree::spsc_queue<Felt, boost::lockfree::capacity<16>> answers_;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What each side can be told by its configuration. The values written here are the defaults; keys.cpp says for every
-// one its name in the file, its range and its help.
+// What each side can be told by its configuration. The values written here are the defaults; the tables of keys
+// (key.hpp) say for every one its name in the file, its range and its help.
 #pragma once
 
 #include <string>
@@ -24,6 +24,11 @@ struct PeerConfig {
 struct ControlConfig {
   std::string socket;  // empty: default_control_socket()
   std::string group;   // empty: the daemon's own
+};
+
+struct WebConfig {
+  bool enabled = true;
+  int port = 0;  // 0: the kernel chooses one
 };
 
 struct LogConfig {
@@ -104,6 +109,7 @@ struct ActiveConfig {
   PeerConfig peer;
   int heartbeat_timeout_ms = 250;  // [peer]
   ControlConfig control;
+  WebConfig web;
   LogConfig log;
 };
 
@@ -150,6 +156,7 @@ struct PassiveConfig {
   GpioConfig gpio;
   PeerConfig peer;
   ControlConfig control;
+  WebConfig web;
   LogConfig log;
 };
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // One key of a configuration: where its value lives, what it may be, and what it is for. Everything that telehug knows
-// of a key follows from its row in keys.cpp.
+// of a key follows from its row in active_keys.cpp, passive_keys.cpp or (of both sides) key_rows.cpp.
 #pragma once
 
 #include <functional>

@@ -50,14 +50,19 @@ bool is_port(const std::string& text) {
 
 Result<CameraSource> parse_camera_source(std::string_view text) {
   if (text == "webcam") return CameraSource{CameraSourceKind::webcam, {}};
-  if (text == "virtual") return CameraSource{CameraSourceKind::virtual_rig, {}};
-  if (const auto seed = after("virtual:", text);
+  const auto question = text.find('?');
+  const bool directed = question != std::string_view::npos && question + 1 < text.size();
+  const std::string_view rig = directed ? text.substr(0, question) : text;
+  if (rig == "virtual") return CameraSource{CameraSourceKind::virtual_rig, {}};
+  if (const auto seed = after("virtual:", rig);
       seed && seed->size() <= 9 && seed->find_first_not_of("0123456789") == std::string::npos) {
     return CameraSource{CameraSourceKind::virtual_rig, {}};
   }
   if (auto folder = after("replay:", text)) return CameraSource{CameraSourceKind::recording, *folder};
-  return Error{fmt::format(
-      "\"{}\" is not a camera source: it is \"webcam\", \"replay:DIR\", \"virtual\" or \"virtual:SEED\"", text)};
+  return Error{
+      fmt::format("\"{}\" is not a camera source: it is \"webcam\", \"replay:DIR\", \"virtual\" or \"virtual:SEED\", "
+                  "both also with ?DIR",
+                  text)};
 }
 
 Result<ScreenSource> parse_screen_source(std::string_view text) {

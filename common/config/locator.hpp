@@ -19,7 +19,7 @@ struct CameraSource {
   std::string folder;  // of a recording
 };
 
-// "webcam", "replay:DIR", "virtual" or "virtual:SEED" (up to 9 digits).
+// "webcam", "replay:DIR", "virtual" or "virtual:SEED" (up to 9 digits), both also with "?DIR".
 [[nodiscard]] Result<CameraSource> parse_camera_source(std::string_view text);
 
 enum class ScreenSourceKind { automatic, x11, portal, picture, camera, recording };

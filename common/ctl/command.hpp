@@ -20,10 +20,13 @@ void add_pause(CLI::App& app, ExitCode& result);
 void add_unpause(CLI::App& app, ExitCode& result);
 void add_mute(CLI::App& app, ExitCode& result);
 void add_unmute(CLI::App& app, ExitCode& result);
+void add_strength(CLI::App& app, ExitCode& result);
+void add_quiet(CLI::App& app, ExitCode& result);
 void add_send(CLI::App& app, ExitCode& result);
 void add_face(CLI::App& app, ExitCode& result);
 void add_hug(CLI::App& app, ExitCode& result);
 void add_jacket(CLI::App& app, ExitCode& result);
+void add_open(CLI::App& app, ExitCode& result);
 void add_pair(CLI::App& app, ExitCode& result);
 void add_version(CLI::App& app, ExitCode& result);
 

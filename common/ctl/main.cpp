@@ -14,12 +14,15 @@ constexpr const char* examples = R"(
 Examples:
   telehug status                      how the daemons on this PC are
   telehug status --json | jq .        the same for programs
+  telehug open                        this side's pages in the browser
   telehug status --check --side active && echo ready
   telehug watch                       touches and answers as they happen
   telehug stop --reason "dinner"      everything off, on both PCs
   telehug resume
   telehug pause 30                    the wearer wants nothing felt for half an hour
   telehug mute 8 13                   nor ever in these boxes
+  telehug strength 50                 and all else half as strongly as the limits allow
+  telehug quiet 20:30-07:00           and nothing at all at night
   telehug send off                    touches on this screen touch nobody
   telehug face next                   the other person in the picture is meant
   telehug hug --seconds 4             felt by the wearer; from the wearer's PC seen and heard by the sender
@@ -46,10 +49,13 @@ ExitCode parse_and_run(int argc, char** argv) {
   telehug::add_unpause(app, result);
   telehug::add_mute(app, result);
   telehug::add_unmute(app, result);
+  telehug::add_strength(app, result);
+  telehug::add_quiet(app, result);
   telehug::add_send(app, result);
   telehug::add_face(app, result);
   telehug::add_hug(app, result);
   telehug::add_jacket(app, result);
+  telehug::add_open(app, result);
   telehug::add_pair(app, result);
   telehug::add_version(app, result);
   try {

@@ -112,24 +112,7 @@ std::string thing_text(std::string_view label, const Json& thing) {
   return line(label, joined(text, ", ", rest_of(thing, {"name", "gesture", "open", "why", "places_px", "heaters"})));
 }
 
-// A line for each heater of the jacket.
-std::string heaters_text(const Json& jacket) {
-  const Json* heaters = part(jacket, "heaters");
-  if (heaters == nullptr || !heaters->is_array()) return "";
-  std::string text;
-  int number = 0;
-  for (const Json& heater : *heaters) {
-    const Json* celsius = part(heater, "celsius");
-    const std::string fault = text_at(heater, "fault");
-    text += line(fmt::format("heater {}", number++),
-                 joined(celsius != nullptr && celsius->is_number() ? fmt::format("{:.1f} C", celsius->get<double>())
-                                                                   : "no reading",
-                        ", ", fault == "none" ? "" : fault));
-  }
-  return text;
-}
-
-// One line for each of several, such as heaters.
+// One line for each of several.
 std::string things_text(std::string_view label, const Json& things) {
   const auto is_object = [](const Json& thing) { return thing.is_object(); };
   if (!things.is_array() || things.empty() || !std::all_of(things.begin(), things.end(), is_object)) {
@@ -138,6 +121,27 @@ std::string things_text(std::string_view label, const Json& things) {
   std::string text;
   for (const Json& thing : things)
     text += thing_text(label, thing);
+  return text;
+}
+
+// One line: "left: 33.4 C, set-point 36.0 C", or why it is off.
+std::string heater_text(const Json& heater) {
+  const auto celsius = [&heater](const char* name) {
+    const Json* value = part(heater, name);
+    return value != nullptr && value->is_number() ? fmt::format("{:.1f} C", value->get<double>()) : "";
+  };
+  const Json* set_point = part(heater, "set_point_celsius");
+  const bool heats = set_point != nullptr && set_point->is_number() && set_point->get<double>() > 0;
+  const std::string what =
+      heats ? "set-point " + celsius("set_point_celsius") : joined("off", ": ", text_at(heater, "why"));
+  const std::string is = celsius("celsius");
+  return line("heater", joined(text_at(heater, "name"), ": ", (is.empty() ? "no reading" : is) + ", " + what));
+}
+
+std::string heaters_text(const Json& heaters) {
+  std::string text;
+  for (const Json& heater : heaters.is_array() ? heaters : Json::array())
+    text += heater_text(heater);
   return text;
 }
 
@@ -171,16 +175,17 @@ std::string latencies_text(const Json& stages) {
 std::string status_text(const Json& status) {
   static constexpr std::array<const char*, 8> things{"camera",  "screen", "face",       "sending",
                                                      "consent", "jacket", "last_touch", "last_hug"};
-  static constexpr std::array<const char*, 9> placed{"side", "version", "uptime_s", "state",     "problems",
-                                                     "peer", "peers",   "counters", "latency_ms"};
+  static constexpr std::array<const char*, 10> placed{"side", "version", "uptime_s", "state",    "problems",
+                                                      "peer", "peers",   "heaters",  "counters", "latency_ms"};
   std::string text = heading(status);
   if (const Json* problems = part(status, "problems")) text += problems_text(*problems);
   text += peers_text(status);
   for (const char* name : things) {
     std::string label = name;
     std::replace(label.begin(), label.end(), '_', ' ');
-    if (const Json* thing = part(status, name)) text += thing_text(label, *thing) + heaters_text(*thing);
+    if (const Json* thing = part(status, name)) text += thing_text(label, *thing);
   }
+  if (const Json* heaters = part(status, "heaters")) text += heaters_text(*heaters);
   if (status.is_object()) {
     for (const auto& [name, value] : status.items()) {
       const auto is = [&key = name](const char* known) { return key == known; };

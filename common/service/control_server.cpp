@@ -3,6 +3,7 @@
 
 #include <fmt/core.h>
 #include <spdlog/spdlog.h>
+#include <unistd.h>
 
 #include <atomic>
 #include <boost/asio/io_context.hpp>
@@ -14,6 +15,7 @@
 #include <utility>
 
 #include "common/outside_json.hpp"
+#include "service/accept_loop.hpp"
 #include "service/control_session.hpp"
 #include "service/control_socket.hpp"
 
@@ -28,7 +30,10 @@ constexpr std::size_t most_handed_over = 1024;
 class ControlServer::Service final : public ControlSession::Host {
  public:
   explicit Service(ControlServerOptions options)
-      : options_(std::move(options)), listening_(options_.socket, options_.group), acceptor_(io_), accept_again_(io_) {
+      : options_(std::move(options)),
+        listening_(options_.socket, options_.group),
+        acceptor_(io_),
+        accept_(acceptor_, [this](ControlSession::Socket socket) { welcome(std::move(socket)); }) {
     const int own = dup(listening_.fd());  // the acceptor closes what it is given
     if (own < 0) throw std::runtime_error("no file descriptor is left for the local socket");
     acceptor_.assign(asio::local::stream_protocol(), own);
@@ -41,7 +46,7 @@ class ControlServer::Service final : public ControlSession::Host {
   }
 
   void start() {
-    accept();
+    accept_.next();
     thread_ = std::thread([this] { io_.run(); });
   }
 
@@ -79,17 +84,14 @@ class ControlServer::Service final : public ControlSession::Host {
       session.watch();
       return {{"watching", true}};
     }
-    const auto handler = handlers_.find(command);
-    if (handler == handlers_.end()) {
-      ++malformed_requests_;
-      return {{"error", unknown(command)}};
-    }
-    try {
-      return handler->second(request, caller);
-    } catch (const std::exception& problem) {
-      spdlog::error("the command \"{}\" of the local socket failed: {}", command, problem.what());
-      return {{"error", problem.what()}};
-    }
+    return handled(command, request, caller);
+  }
+
+  void ask(nlohmann::json request, std::function<void(nlohmann::json)> answered) {
+    asio::post(io_, [this, request = std::move(request), answered = std::move(answered)] {
+      ++requests_;
+      answered(handled(request.at("command").get<std::string>(), request, {getpid(), getuid(), getgid()}));
+    });
   }
 
   void malformed() override { ++malformed_requests_; }
@@ -104,20 +106,18 @@ class ControlServer::Service final : public ControlSession::Host {
   std::map<std::string, CallerHandler> handlers_;
 
  private:
-  void accept() {
-    acceptor_.async_accept([this](const boost::system::error_code& problem, ControlSession::Socket socket) {
-      if (problem == asio::error::operation_aborted) return;
-      if (problem) {
-        // Most likely no descriptors are left; trying again at once would only spin.
-        accept_again_.expires_after(100ms);
-        accept_again_.async_wait([this](const boost::system::error_code& stopped) {
-          if (!stopped) accept();
-        });
-        return;
-      }
-      welcome(std::move(socket));
-      accept();
-    });
+  nlohmann::json handled(const std::string& command, const nlohmann::json& request, const Caller& caller) {
+    const auto handler = handlers_.find(command);
+    if (handler == handlers_.end()) {
+      ++malformed_requests_;
+      return {{"error", unknown(command)}};
+    }
+    try {
+      return handler->second(request, caller);
+    } catch (const std::exception& problem) {
+      spdlog::error("the command \"{}\" of the local socket failed: {}", command, problem.what());
+      return {{"error", problem.what()}};
+    }
   }
 
   void welcome(ControlSession::Socket socket) {
@@ -160,7 +160,7 @@ class ControlServer::Service final : public ControlSession::Host {
   ControlSocket listening_;
   asio::io_context io_{1};
   asio::local::stream_protocol::acceptor acceptor_;
-  asio::steady_timer accept_again_;
+  AcceptLoop<asio::local::stream_protocol::acceptor> accept_;
   std::set<std::shared_ptr<ControlSession>> sessions_;
 
   std::mutex mutex_;
@@ -191,6 +191,9 @@ void ControlServer::on(const std::string& command, CallerHandler handler) {
 
 void ControlServer::start() {
   service_->start();
+}
+void ControlServer::ask(nlohmann::json request, std::function<void(nlohmann::json)> answered) {
+  service_->ask(std::move(request), std::move(answered));
 }
 void ControlServer::broadcast(nlohmann::json event) {
   service_->broadcast(std::move(event));

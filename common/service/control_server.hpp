@@ -67,6 +67,11 @@ class ControlServer {
 
   void start();
 
+  // A request of this program itself, such as of the pages that it serves: answered like one of the socket, on the
+  // server's thread, which also calls `answered`. From any thread. Never answered if this ends before. "watch" is none
+  // of these.
+  void ask(nlohmann::json request, std::function<void(nlohmann::json)> answered);
+
   // To every watcher. From any thread; never waits for a reader. Costs next to nothing while nobody watches.
   void broadcast(nlohmann::json event);
 

@@ -11,7 +11,7 @@ struct JacketSituation {
   bool armed = false;    // the jacket answers
   bool stopped = false;  // by whomever
   bool sender = false;   // somebody who may touch is connected
-  bool touched = false;  // a motor runs
+  bool touched = false;  // a motor runs, or a heater warms
   bool problem = false;  // of a line, such as a lost one
 };
 

@@ -14,6 +14,7 @@ constexpr double width_px = 3.2 * px_per_fh;  // of one body
 constexpr double chin_px = 1.25 * px_per_fh;
 constexpr double height_px = chin_px + 2.5 * px_per_fh;
 constexpr double title_px = 30;
+constexpr double grid_width_px = standard_columns * standard_box_side_fh * px_per_fh;
 
 std::string escaped(std::string_view text) {
   std::string all;
@@ -63,7 +64,8 @@ std::string drawn(const Actuator& actuator, bool runs) {
           : fmt::format("<circle class='{}' cx='{}' cy='{}' r='14'/>", style, x, y);
   if (!actuator.enabled) shape += fmt::format("<path d='M{} {} l20 20 m0 -20 l-20 20'/>", x - 10, y - 10);
   return fmt::format(
-      "<g><title>{0}</title>{1}<text x='{2}' y='{3}'>{4}</text><text class='name' x='{2}' y='{5}'>{0}</text></g>\n",
+      "<g data-actuator='{4}'><title>{0}</title>{1}<text x='{2}' y='{3}'>{4}</text><text class='name' x='{2}' "
+      "y='{5}'>{0}</text></g>\n",
       escaped(actuator.name), shape, x, y + 5, actuator.id, y + 26);
 }
 
@@ -77,9 +79,13 @@ std::string body_svg(const JacketProfile& profile, std::span<const std::uint8_t>
       ".runs{{fill:#fb0;stroke:#06c;stroke-width:3}}.off{{fill:#eee;stroke:#999;stroke-width:2}}</style>\n",
       2 * width_px, title_px + height_px, escaped(profile.name));
   for (const BodySide side : {BodySide::front, BodySide::back}) {
-    svg += fmt::format("<g transform='translate({} {})'>\n<text x='{}' y='-8'>{}: {}</text>\n{}",
-                       side == BodySide::front ? 0 : width_px, title_px, width_px / 2, escaped(profile.name),
-                       side == BodySide::front ? "front" : "back", outline());
+    const double left_px = side == BodySide::front ? 0 : width_px;
+    const std::string_view name = side == BodySide::front ? "front" : "back";
+    svg += fmt::format(
+        "<g data-side='{0}' data-grid='{1} {2} {3} {4}' transform='translate({5} {6})'>\n"
+        "<text class='caption' x='{7}' y='-8'>{8}: {0}</text>\n{9}",
+        name, left_px + width_px / 2 - grid_width_px / 2, title_px + chin_px, grid_width_px, height_px - chin_px,
+        left_px, title_px, width_px / 2, escaped(profile.name), outline());
     for (const Actuator& actuator : profile.actuators) {
       if (actuator.side != side) continue;
       svg += drawn(actuator, std::ranges::find(running, actuator.id) != running.end());

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <chrono>
+#include <cmath>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -26,6 +27,15 @@ inline constexpr int standard_columns = 5;
 inline constexpr double standard_box_side_fh = 0.5;
 inline constexpr int standard_rows = 20;  // farther down than any camera sees
 inline constexpr int largest_box = standard_columns * standard_rows;
+
+// Number of the box that a place lies in; 0: beside the grid, or nowhere. Of two boxes a place on their edge is in the
+// one to the right, or below.
+[[nodiscard]] inline int standard_box_at(BodyPoint place) noexcept {
+  const double column = std::floor(place.x_fh / standard_box_side_fh + standard_columns / 2.0);
+  const double row = std::floor(place.y_fh / standard_box_side_fh);
+  const bool inside = column >= 0 && column < standard_columns && row >= 0 && row < standard_rows;  // false for NaN
+  return inside ? static_cast<int>(row) * standard_columns + static_cast<int>(column) + 1 : 0;
+}
 
 enum class ActuatorKind : std::uint8_t { motor, heater };
 enum class BodySide : std::uint8_t { front, back };

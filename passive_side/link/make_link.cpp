@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "link/make_link.hpp"
 
+#include <algorithm>
 #include <exception>
 #include <optional>
 #include <string>
@@ -20,6 +21,14 @@ std::optional<std::string> after(std::string_view scheme, std::string_view spec)
   return std::string(spec.substr(scheme.size()));
 }
 
+// Of those that telehug-jacket-sim knows, the one that such a jacket has.
+std::string board_of(const JacketProfile& profile) {
+  if (profile.protocol == JacketProtocol::legacy) return "legacy";
+  const bool heats = std::ranges::any_of(
+      profile.actuators, [](const Actuator& actuator) { return actuator.kind == ActuatorKind::heater; });
+  return heats ? "motors12_heaters2" : "motors16";
+}
+
 std::unique_ptr<Conversation> make_conversation(LinkProtocol protocol) {
   if (protocol == LinkProtocol::legacy) return std::make_unique<LegacySession>();
   return std::make_unique<JacketSession>();
@@ -30,6 +39,14 @@ std::unique_ptr<JacketLink> make_wire_link(std::unique_ptr<WireOpener> opener, L
 }
 
 }  // namespace
+
+LinkOptions link_options(const JacketProfile& profile, int baud) {
+  LinkOptions options;
+  options.baud = static_cast<unsigned>(baud != 0 ? baud : profile.baud);
+  if (profile.protocol == JacketProtocol::legacy) options.protocol = LinkProtocol::legacy;
+  options.simulator.board = board_of(profile);
+  return options;
+}
 
 Result<std::unique_ptr<JacketLink>> make_link(std::string_view spec, const LinkOptions& options) {
   try {

@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "common/result.hpp"
+#include "jacket/jacket_profile.hpp"
 #include "link/jacket_link.hpp"
 #include "link/simulated_link.hpp"
 #include "wire/serial_port.hpp"
@@ -22,6 +23,9 @@ struct LinkOptions {
   LinkProtocol protocol = LinkProtocol::telehug;
   SimulatorOptions simulator;
 };
+
+// Of a jacket that has this profile. baud: in place of the profile's own, unless 0.
+[[nodiscard]] LinkOptions link_options(const JacketProfile& profile, int baud = 0);
 
 // The link that `spec` names: `serial:PATH` (a terminal device; `serial:auto`: the only one in /dev/serial/by-id),
 // `rfcomm:AA:BB:CC:DD:EE:FF` or `rfcomm:AA:BB:CC:DD:EE:FF/CHANNEL` (Bluetooth), `simulated` (the firmware in a

@@ -22,11 +22,7 @@ int standard_box(const Contact& contact) {
       contact.box <= contact.grid.columns * contact.grid.rows) {
     return contact.box;
   }
-  if (!finite(contact.body)) return 0;
-  const double column = std::floor(contact.body.x_fh / standard_box_side_fh + standard_columns / 2.0);
-  const double row = std::floor(contact.body.y_fh / standard_box_side_fh);
-  const bool inside = column >= 0 && column < standard_columns && row >= 0 && row < standard_rows;
-  return inside ? static_cast<int>(row) * standard_columns + static_cast<int>(column) + 1 : 0;
+  return standard_box_at(contact.body);
 }
 
 Spot motors_of_box(const Contact& contact, const JacketProfile& profile) {

@@ -1,16 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "safety/muted_place.hpp"
 
-#include <cmath>
-
 namespace telehug {
 namespace {
 
 bool is_muted(BodyPoint place, const MutedBoxes& muted) {
-  const double column = std::floor(place.x_fh / standard_box_side_fh + standard_columns / 2.0);
-  const double row = std::floor(place.y_fh / standard_box_side_fh);
-  const bool inside = column >= 0 && column < standard_columns && row >= 0 && row < standard_rows;  // false for NaN
-  return inside && muted.test(static_cast<std::size_t>(row) * standard_columns + static_cast<std::size_t>(column) + 1);
+  const int box = standard_box_at(place);
+  return box != 0 && muted.test(static_cast<std::size_t>(box));
 }
 
 }  // namespace
@@ -19,6 +15,10 @@ bool is_muted(const Contact& contact, const MutedBoxes& muted) {
   const bool standard = contact.grid.columns == standard_columns;
   if (standard && contact.box < muted.size() && muted.test(contact.box)) return true;
   return is_muted(contact.body, muted);
+}
+
+bool is_muted(std::uint8_t actuator, BodyPoint place, const Permission& permission) {
+  return permission.muted_actuators.test(actuator) || is_muted(place, permission.muted_boxes);
 }
 
 }  // namespace telehug

@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "safety/current_budget.hpp"
+#include "safety/muted_place.hpp"
 
 namespace telehug {
 namespace {
@@ -108,14 +109,18 @@ Outputs::Found Outputs::find(std::uint8_t id, double strength) {
   return {&*heater, set_point_celsius(strength, heater->most_celsius)};
 }
 
-Outputs::Asked Outputs::ask(SenderNumber sender, const Drive& wanted, const MutedActuators& muted, Timestamp now) {
-  const auto [output, level] = find(wanted.actuator, wanted.strength);
+Outputs::Asked Outputs::ask(SenderNumber sender, const Drive& wanted, const Permission& permission, Timestamp now) {
+  const auto [output, level] = find(wanted.actuator, std::min(wanted.strength, 1.0) * permission.strength);
   if (output == nullptr) {
     ++counters_.refused_unknown_actuator;
     return Asked::refused;
   }
   const bool was_on = output->shares.any();
   output->shares.drop(sender);
+  if (!output->enabled || is_muted(output->id, output->place, permission)) {
+    ++counters_.refused_muted;
+    return Asked::muted;
+  }
   if (!std::isfinite(wanted.strength)) {
     ++counters_.refused_not_finite;
     return Asked::refused;
@@ -123,10 +128,6 @@ Outputs::Asked Outputs::ask(SenderNumber sender, const Drive& wanted, const Mute
   if (wanted.strength <= 0 || wanted.end <= now) {
     counters_.off_ended += one_if(was_on && !output->shares.any());
     return Asked::ended;
-  }
-  if (!output->enabled || muted.test(wanted.actuator)) {
-    ++counters_.refused_muted;
-    return Asked::muted;
   }
   if (level <= 0) {
     ++counters_.refused_by_limit;

@@ -26,8 +26,9 @@ class Outputs {
   Outputs(const Outputs&) = delete;
   Outputs& operator=(const Outputs&) = delete;
 
-  // Of anything but `accepted` the sender asks nothing of this actuator then. sender: below max_senders.
-  Asked ask(SenderNumber sender, const Drive& wanted, const MutedActuators& muted, Timestamp now);
+  // Of anything but `accepted` the sender asks nothing of this actuator then. sender: below max_senders. What the
+  // wearer permits only ever takes away from it.
+  Asked ask(SenderNumber sender, const Drive& wanted, const Permission& permission, Timestamp now);
 
   // What was commanded has run until now. Comes before whatever changes that.
   void pass(Timestamp now);
@@ -61,9 +62,11 @@ class Outputs {
 
  private:
   struct Output {
-    explicit Output(const Actuator& actuator) : id(actuator.id), channel(actuator.channel), enabled(actuator.enabled) {}
+    explicit Output(const Actuator& actuator)
+        : id(actuator.id), channel(actuator.channel), place(actuator.place), enabled(actuator.enabled) {}
     std::uint8_t id;
     std::uint8_t channel;
+    BodyPoint place;
     bool enabled;
     Shares shares{};
     double given = 0;         // the last command's level

@@ -48,7 +48,7 @@ SafetyVerdict SafetyStage::apply(SenderNumber sender, const Drives& drives, Time
   SafetyVerdict verdict;
   Drives accepted;
   for (const Drive& wanted : drives) {
-    const Outputs::Asked asked = outputs_.ask(sender, wanted, permission_.muted_actuators, now);
+    const Outputs::Asked asked = outputs_.ask(sender, wanted, permission_, now);
     if (asked == Outputs::Asked::accepted) accepted.push_back(wanted);
     if (asked == Outputs::Asked::muted) verdict.muted.push_back(wanted.actuator);
     if (asked == Outputs::Asked::refused || asked == Outputs::Asked::muted) verdict.refused.push_back(wanted.actuator);

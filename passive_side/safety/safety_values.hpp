@@ -65,6 +65,9 @@ struct SafetyVerdict {
   Refused refused;          // of which a limit or the wearer left nothing
   Refused muted;            // those of them of which it was the wearer
 
+  [[nodiscard]] bool refuses(std::uint8_t actuator) const noexcept {
+    return std::ranges::find(refused, actuator) != refused.end();
+  }
   // For the contact that was to be felt at `actuators`: limited if nothing of it is left, muted if that is the wearer's
   // doing alone.
   [[nodiscard]] FeltOutcome outcome_at(std::span<const std::uint8_t> actuators) const noexcept {

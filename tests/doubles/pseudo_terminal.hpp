@@ -45,6 +45,11 @@ class PseudoTerminal {
     bytes.resize(size);
     return bytes;
   }
+  // Has anything come that was not read?
+  [[nodiscard]] bool has_bytes() const {
+    pollfd asked{master_, POLLIN, 0};
+    return poll(&asked, 1, 0) == 1 && (asked.revents & POLLIN) != 0;
+  }
   void unplug() {
     if (master_ >= 0) close(std::exchange(master_, -1));
   }

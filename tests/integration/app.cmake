@@ -19,6 +19,8 @@ telehug_test(test_app_stop KIND integration SUBJECT ops
   SOURCES integration/app/stop_test.cpp DEPS running_pair)
 telehug_test(test_app_consent KIND integration SUBJECT jacket
   SOURCES integration/app/consent_test.cpp DEPS running_pair)
+telehug_test(test_app_pages KIND integration SUBJECT web
+  SOURCES integration/app/pages_test.cpp DEPS running_pair)
 telehug_test(test_app_paired KIND integration SUBJECT link
   SOURCES integration/app/paired_test.cpp DEPS running_pair)
 telehug_test(test_app_several KIND integration SUBJECT link
@@ -33,6 +35,9 @@ telehug_test(test_app_record_screen KIND integration SUBJECT face
   SOURCES integration/app/record_screen_test.cpp DEPS running_pair active_screen)
 telehug_test(test_app_chat_on_screen KIND integration SUBJECT face
   SOURCES integration/app/chat_on_screen_test.cpp DEPS running_pair telehug_pictures opencv::imgproc PkgConfig::xcb PkgConfig::xtest)
+telehug_test(test_app_demo KIND integration SUBJECT ops
+  SOURCES integration/app/demo_test.cpp DEPS running_pair)
+add_dependencies(test_app_demo telehug-demo)
 telehug_test(test_app_look KIND integration SUBJECT face
   SOURCES integration/app/look_test.cpp DEPS running_pair)
 telehug_test(test_app_hug KIND integration SUBJECT jacket
@@ -40,6 +45,9 @@ telehug_test(test_app_hug KIND integration SUBJECT jacket
 set_tests_properties(test_app_hug PROPERTIES RUN_SERIAL TRUE)  # as test_app_silence
 telehug_test(test_app_jacket_command KIND integration SUBJECT jacket
   SOURCES integration/app/jacket_command_test.cpp DEPS running_pair)
+telehug_test(test_app_heaters KIND integration SUBJECT jacket
+  SOURCES integration/app/heaters_test.cpp DEPS running_pair)
+set_tests_properties(test_app_heaters PROPERTIES RUN_SERIAL TRUE)  # as test_app_silence
 telehug_test(test_app_felt_feedback KIND integration SUBJECT jacket
   SOURCES integration/app/felt_feedback_test.cpp DEPS running_pair)
 telehug_test(test_app_panel KIND integration SUBJECT jacket

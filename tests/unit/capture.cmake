@@ -10,7 +10,8 @@ telehug_test(test_capture KIND unit SUBJECT touch
     unit/capture/webcam_test.cpp
   DEPS active_capture fmt::fmt)
 telehug_test(test_virtual_rig KIND unit SUBJECT touch
-  SOURCES unit/capture/hand_shape_test.cpp unit/capture/pinhole_camera_test.cpp unit/capture/random_rig_test.cpp
+  SOURCES unit/capture/directed_rig_test.cpp unit/capture/hand_path_test.cpp
+    unit/capture/hand_shape_test.cpp unit/capture/pinhole_camera_test.cpp unit/capture/random_rig_test.cpp
     unit/capture/rig_features_test.cpp unit/capture/touch_script_test.cpp
     unit/capture/virtual_rig_test.cpp
   DEPS active_capture fmt::fmt)

@@ -3,14 +3,17 @@ telehug_test(test_jacket KIND unit SUBJECT jacket
   SOURCES
     unit/jacket/body_picture_test.cpp
     unit/jacket/body_svg_test.cpp
+    unit/jacket/duemilanove_12_heaters_2_test.cpp
     unit/jacket/duemilanove_16_test.cpp
     unit/jacket/intensity_test.cpp
     unit/jacket/jacket_overrides_test.cpp
     unit/jacket/jacket_profile_test.cpp
+    unit/jacket/legacy_16_test.cpp
+    unit/jacket/ring_1_test.cpp
     unit/jacket/safety_property_test.cpp
     unit/jacket/safety_stage_test.cpp
     unit/jacket/several_senders_test.cpp
-  DEPS passive_jacket passive_rendering passive_safety fmt::fmt)
+  DEPS active_feedback passive_jacket passive_link passive_rendering passive_safety fmt::fmt)
 
 # Do the JSON schema and the loader take the same files for right?
 add_test(NAME test_jacket_schema COMMAND /usr/bin/python3 ${CMAKE_CURRENT_SOURCE_DIR}/unit/jacket/schema_test.py

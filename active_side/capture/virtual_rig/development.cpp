@@ -69,8 +69,9 @@ void Development::add_noise(std::uint64_t picture, cv::Mat& bgr) const {
   if (!noisy_) return;
   cv::RNG place(picture * golden + seed_ + 1);
   // One corner for both halves: together they are normally distributed.
-  const cv::Point corner(place.uniform(0, noise_shift_px), place.uniform(0, noise_shift_px));
-  const cv::Rect part(corner, bgr.size());
+  const int down_px = place.uniform(0, noise_shift_px);
+  const int right_px = place.uniform(0, noise_shift_px);
+  const cv::Rect part({right_px, down_px}, bgr.size());
   cv::add(bgr, brighter_(part), bgr);
   cv::subtract(bgr, darker_(part), bgr);
 }

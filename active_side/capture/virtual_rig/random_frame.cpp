@@ -85,7 +85,8 @@ class FrameDrawer {
 
   // As in a script: approach_from_mm within approach_s.
   void come_or_go(HandPose& hand) {
-    const double speed = random_.uniform(0.2, 1) * approach_from_mm / approach_s * (random_.chance(0.5) ? 1 : -1);
+    double speed = random_.uniform(0.2, 1) * approach_from_mm / approach_s;
+    if (!random_.chance(0.5)) speed = -speed;
     hand.velocity_mm_per_s = {0, 0.2 * speed, speed};
   }
 

@@ -166,9 +166,11 @@ cv::Mat draw_screen_content(ScreenContent content, const ScreenSize& screen, std
     case ScreenContent::chat:
       draw_chat(painter, picture);
       break;
-    case ScreenContent::photo:
-      painter.clouds(Rect({0, 0}, picture.size()), painter.random(0.2, 0.7), painter.random(0.5, 1.2));
+    case ScreenContent::photo: {
+      const double side = painter.random(0.5, 1.2);
+      painter.clouds(Rect({0, 0}, picture.size()), painter.random(0.2, 0.7), side);
       break;
+    }
     case ScreenContent::desktop:
       draw_desktop(painter, picture);
       break;

@@ -119,44 +119,37 @@ Status check_virtual_rig(const VirtualRigSettings& s) {
 }
 
 VirtualRig::VirtualRig(VirtualRigSettings settings, const Clock& clock, SleepUntil sleep)
-    : settings_(completed(std::move(settings))), clock_(clock), sleep_(std::move(sleep)), pictures_(settings_) {}
+    : settings_(completed(std::move(settings))),
+      pace_(settings_.fps, settings_.real_time, clock, std::move(sleep)),
+      pictures_(settings_) {}
 
 Status VirtualRig::open() {
   if (open_) return Done{};
   open_ = true;
-  start_ = clock_.now();
+  pace_.open();
   return Done{};
 }
 
 void VirtualRig::close() {
   open_ = false;
-  first_sequence_ = next_;
-}
-
-Duration VirtualRig::offset(std::uint64_t sequence) const {
-  const std::chrono::duration<double> seconds(static_cast<double>(sequence - first_sequence_) / settings_.fps);
-  return std::chrono::duration_cast<Duration>(seconds);
+  pace_.close();
 }
 
 ReadOutcome VirtualRig::read(Frame& frame, Duration timeout) {
-  const Timestamp deadline = clock_.now() + timeout;
+  const Timestamp deadline = pace_.now() + timeout;
   if (!open_) {
     last_error_ = "the virtual rig is closed";
-    wait_until(deadline, deadline, clock_, sleep_);
+    pace_.wait(deadline);
     return ReadOutcome::lost;
   }
-  if (!settings_.repeat && static_cast<double>(next_) / settings_.fps > settings_.script.length_s) {
+  if (!settings_.repeat && static_cast<double>(pace_.next()) / settings_.fps > settings_.script.length_s) {
     return ReadOutcome::ended;
   }
-  if (settings_.real_time) {
-    if (!wait_until(start_ + offset(next_), deadline, clock_, sleep_)) return ReadOutcome::timeout;
-    const std::chrono::duration<double> late = clock_.now() - (start_ + offset(next_));
-    next_ += static_cast<std::uint64_t>(late.count() * settings_.fps);  // as with a webcam the newest frame wins
-  }
-  pictures_.draw(hands(next_), script_time_s(next_), next_, frame.bgr);
-  frame.sequence = next_;
-  frame.time = start_ + offset(next_);
-  ++next_;
+  const auto number = pace_.wait_for_picture(deadline);
+  if (!number) return ReadOutcome::timeout;
+  pictures_.draw(hands(*number), script_time_s(*number), *number, frame.bgr);
+  frame.sequence = *number;
+  frame.time = pace_.time_of(*number);
   return ReadOutcome::frame;
 }
 

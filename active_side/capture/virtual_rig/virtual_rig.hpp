@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "capture/frame_source.hpp"
-#include "capture/pace.hpp"
 #include "capture/virtual_rig/picture_maker.hpp"
+#include "capture/virtual_rig/rig_pace.hpp"
 #include "capture/virtual_rig/settings.hpp"
 
 namespace telehug {
@@ -55,17 +55,12 @@ class VirtualRig final : public FrameSource {
 
  private:
   [[nodiscard]] double script_time_s(std::uint64_t sequence) const;
-  [[nodiscard]] Duration offset(std::uint64_t sequence) const;
   cv::Mat picture_of(const cv::Mat& shown, const std::vector<HandPose>& hands);
 
   VirtualRigSettings settings_;
-  const Clock& clock_;
-  SleepUntil sleep_;
+  RigPace pace_;
   PictureMaker pictures_;
   bool open_ = false;
-  Timestamp start_;
-  std::uint64_t first_sequence_ = 0;  // of this opening
-  std::uint64_t next_ = 0;
   std::uint64_t calibration_pictures_ = 0;
   std::string last_error_;
 };

@@ -32,5 +32,46 @@ TEST(LocalUseOfTheTouch, GoesOnWithoutAPeerAndPastAnOutputThatFails) {
   EXPECT_TRUE(eventually([&] { return !pair.camera_open(); })) << pair.logs();
 }
 
+// The camera sees this picture from now on.
+void show(const RunningPair& pair, const char* picture) {
+  const auto shown = pair.folder / "held" / "1.jpg";
+  std::filesystem::create_symlink(std::string(TELEHUG_FIXTURES "/rig2/") + picture, pair.folder / "next");
+  std::filesystem::rename(pair.folder / "next", shown);
+}
+
+TEST(LocalUseOfTheTouch, LeavesAFingerThatCameWhileSendingWasOffOnNobodyUntilItIsLifted) {
+  TuioListener listener;
+  RunningPair pair;
+  pair.calibrate("replay:" TELEHUG_FIXTURES "/rig2");
+  pair.active_settings = {"local_touch.tuio=true", "local_touch.tuio_port=" + std::to_string(listener.port())};
+  pair.start_jacket();
+  pair.start_passive();
+  pair.start_active();
+  const auto rests_here = [&] {
+    const auto bundles = listener.bundles();
+    return !bundles.empty() && !bundles.back().alive.empty();
+  };
+  const auto send = [&](const char* mode) {
+    return pair.run({TELEHUG_BIN "/telehug", "send", mode, "--socket", pair.socket(Side::active).string()}).code;
+  };
+  const auto lift = [&] {
+    show(pair, "background.jpg");
+    return eventually([&] { return !rests_here() && !pair.felt(); });
+  };
+  ASSERT_TRUE(eventually([&] { return pair.felt(); })) << pair.logs();
+  ASSERT_TRUE(lift()) << pair.logs();
+  ASSERT_EQ(send("off"), 0);
+  show(pair, "sequence/012.jpg");
+  ASSERT_TRUE(eventually(rests_here)) << pair.logs();
+  ASSERT_EQ(send("on"), 0);
+  const std::uint64_t end = pair.counter(Side::active, "frames") + 60;
+  ASSERT_TRUE(eventually([&] { return pair.counter(Side::active, "frames") >= end || pair.felt(); }));
+  EXPECT_FALSE(pair.felt());
+  EXPECT_TRUE(rests_here());
+  ASSERT_TRUE(lift());
+  show(pair, "sequence/012.jpg");
+  EXPECT_TRUE(eventually([&] { return pair.felt(); })) << pair.logs();
+}
+
 }  // namespace
 }  // namespace telehug

@@ -131,10 +131,10 @@ std::vector<std::string> RunningPair::active_command() const {
 
 void RunningPair::start_jacket() {
   jacket.reset();
-  jacket = std::make_unique<ChildProcess>(
-      std::vector<std::string>{program("telehug-jacket-sim"), "--link", folder / "jacket", "--pins",
-                               folder / "pins.csv", "--die-with-parent"},
-      folder / "jacket.log");
+  std::vector<std::string> words{program("telehug-jacket-sim"), "--link",           folder / "jacket", "--pins",
+                                 folder / "pins.csv",           "--die-with-parent"};
+  words.insert(words.end(), jacket_options.begin(), jacket_options.end());
+  jacket = std::make_unique<ChildProcess>(words, folder / "jacket.log");
 }
 
 void RunningPair::start_passive() {

@@ -48,6 +48,7 @@ class RunningPair {
   std::filesystem::path picture;
   std::filesystem::path calibration;
   std::string jacket_link;
+  std::vector<std::string> jacket_options;  // of telehug-jacket-sim, such as --board
   bool loopback_only = true;
   std::vector<std::string> active_settings;  // SECTION.KEY=VALUE
   std::vector<std::string> passive_settings;

@@ -62,12 +62,15 @@ class TelehugCommand : public testing::Test {
       hug_ = request;
       return {{"side", side_name(side)}};
     });
-    for (const char* order : {"pause", "unpause", "mute", "unmute"}) {
+    for (const char* order : {"pause", "unpause", "mute", "unmute", "strength", "quiet"}) {
       server->on(order, [this, side](const Json& request) -> Json {
         order_ = request;
         return {{"side", side_name(side)}};
       });
     }
+    server->on("open", [side](const Json&) -> Json {
+      return {{"url", "http://127.0.0.1:4000/enter?link=" + side_name(side)}};
+    });
     server->on("resume", [](const Json&) -> Json { return {{"error", "the other side has stopped"}}; });
     server->start();
     return server;
@@ -93,10 +96,29 @@ TEST_F(TelehugCommand, HelpsWithExamples) {
 }
 
 TEST_F(TelehugCommand, RefusesACommandLineItDoesNotUnderstand) {
-  for (const char* wrong :
-       {"", "dance", "status --loud", "status --side left", "watch --count 0", "hug --seconds 11", "hug --seconds 0.1",
-        "hug --strength 0", "hug --strength 1.5", "pause 0", "pause 1441", "pause soon", "mute", "mute 0", "mute 101",
-        "mute --actuator 256", "mute --all", "unmute", "unpause 5"}) {
+  for (const char* wrong : {"",
+                            "dance",
+                            "status --loud",
+                            "status --side left",
+                            "watch --count 0",
+                            "hug --seconds 11",
+                            "hug --seconds 0.1",
+                            "hug --strength 0",
+                            "hug --strength 1.5",
+                            "pause 0",
+                            "pause 1441",
+                            "pause soon",
+                            "mute",
+                            "mute 0",
+                            "mute 101",
+                            "mute --actuator 256",
+                            "quiet",
+                            "quiet 20:30",
+                            "quiet 10:00-10:00",
+                            "quiet \"\"",
+                            "mute --all",
+                            "unmute",
+                            "unpause 5"}) {
     const Outcome outcome = run(wrong);
     EXPECT_EQ(outcome.code, to_int(ExitCode::usage)) << wrong;
     EXPECT_FALSE(outcome.errors.empty()) << wrong;
@@ -212,8 +234,48 @@ TEST_F(TelehugCommand, TellsTheWearersDaemonAloneWhatTheyWant) {
   EXPECT_EQ(order_, Json({{"command", "mute"}, {"boxes", {8, 13}}, {"actuators", {3}}}));
   EXPECT_EQ(run("unmute 8").out, "passive: unmuted\n");
   EXPECT_EQ(order_, Json({{"command", "unmute"}, {"boxes", {8}}, {"actuators", Json::array()}}));
+  EXPECT_EQ(run("strength 45").out, "passive: 45 % of what the limits allow\n");
+  EXPECT_EQ(order_, Json({{"command", "strength"}, {"strength", 0.45}}));
+  EXPECT_EQ(run("strength 101").code, to_int(ExitCode::usage));
+  EXPECT_EQ(run("quiet 20:30-07:00,13:00-14:00").out, "passive: quiet hours: 20:30-07:00,13:00-14:00\n");
+  EXPECT_EQ(order_, Json({{"command", "quiet"}, {"hours", "20:30-07:00,13:00-14:00"}}));
+  EXPECT_EQ(run("quiet none").out, "passive: no quiet hours of the wearer's own\n");
+  EXPECT_EQ(order_, Json({{"command", "quiet"}, {"hours", ""}}));
   EXPECT_EQ(run("unmute --all").code, to_int(ExitCode::ok));
   EXPECT_EQ(order_.value("all", false), true);
+}
+
+TEST_F(TelehugCommand, OpensThePagesOfTheDaemonThatItIsToldOrOfAll) {
+  const auto active = daemon(Side::active, Json::object());
+  const auto passive = daemon(Side::passive, Json::object());
+  EXPECT_EQ(run("open passive --print").out, "http://127.0.0.1:4000/enter?link=passive\n");
+  EXPECT_EQ(run("open --print").out,
+            "http://127.0.0.1:4000/enter?link=active\nhttp://127.0.0.1:4000/enter?link=passive\n");
+  EXPECT_EQ(run("open nobody").code, to_int(ExitCode::usage));
+}
+
+TEST_F(TelehugCommand, GivesALinkToTheBrowserOrToThePersonIfThereIsNone) {
+  const auto passive = daemon(Side::passive, Json::object());
+  const std::string browser = folder_.write("xdg-open", "#!/bin/sh\necho \"$1\" > \"$0.opened\"\n");
+  std::filesystem::permissions(browser, std::filesystem::perms::owner_all);
+  const std::string path = "env PATH=" + folder_.path().string() + ":/usr/bin:/bin";
+  EXPECT_EQ(run("open passive", path).code, 0);
+  EXPECT_EQ(content(browser + ".opened"), "http://127.0.0.1:4000/enter?link=passive\n");
+  const Outcome failed = run("open passive", "env PATH=/nowhere:/usr/bin");
+  EXPECT_EQ(failed.code, to_int(ExitCode::internal));
+  EXPECT_THAT(failed.errors, HasSubstr("open this link within a minute: http://127.0.0.1:4000/enter?link=passive"));
+}
+
+TEST_F(TelehugCommand, OpensNothingButAPageOfThisPc) {
+  for (const Json& url : {Json("file:///etc/passwd"), Json("--version"), Json("http://evil.example/"),
+                          Json("http://127.0.0.1:1/ --x"), Json(5), Json()}) {
+    auto server =
+        std::make_unique<ControlServer>(ControlServerOptions{.socket = runtime_ / "telehug/passive.sock", .group = {}});
+    server->on("open", [url](const Json&) { return Json{{"url", url}}; });
+    server->start();
+    EXPECT_EQ(run("open passive --print").code, to_int(ExitCode::bad_answer)) << url;
+    EXPECT_THAT(run("open passive --print").out, IsEmpty()) << url;
+  }
 }
 
 TEST_F(TelehugCommand, TellsWhyADaemonRefuses) {

@@ -3,6 +3,7 @@
 
 #include <gmock/gmock.h>
 
+#include <future>
 #include <list>
 #include <random>
 #include <thread>
@@ -66,6 +67,21 @@ TEST_F(ControlServerTest, TellsHandlersWhoAsks) {
   EXPECT_EQ(who["pid"], getpid());
   EXPECT_EQ(who["uid"], geteuid());
   EXPECT_EQ(who["gid"], getegid());
+}
+
+TEST_F(ControlServerTest, AnswersARequestOfItsOwnProgramAsOneOfTheSocket) {
+  ControlServer& server = serve();
+  const auto answer_to = [&server](const Json& request) {
+    std::promise<Json> answer;
+    server.ask(request, [&answer](Json said) { answer.set_value(std::move(said)); });
+    auto said = answer.get_future();
+    return said.wait_for(20s) == std::future_status::ready ? said.get() : Json("no answer");
+  };
+  EXPECT_EQ(answer_to({{"command", "echo"}, {"say", 7}}), Json({{"said", 7}}));
+  EXPECT_EQ(answer_to({{"command", "who"}}).at("pid"), getpid());
+  EXPECT_TRUE(answer_to({{"command", "echo"}}).contains("error")) << "its handler throws";
+  EXPECT_TRUE(answer_to({{"command", "watch"}}).contains("error")) << "there is nobody to tell";
+  EXPECT_EQ(server.stats().requests, 4U);
 }
 
 TEST_F(ControlServerTest, SaysWhatItKnowsWhenACommandIsUnknown) {

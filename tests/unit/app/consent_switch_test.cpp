@@ -46,6 +46,55 @@ TEST_F(TheConsentSwitch, pauses_until_further_notice_or_for_some_minutes) {
   EXPECT_EQ(refusal(consent), std::nullopt);
 }
 
+TEST_F(TheConsentSwitch, lowers_the_strength_and_keeps_it) {
+  EXPECT_EQ(consent.strength({{"strength", 0.25}}), Json({{"side", "passive"}, {"strength", 0.25}}));
+  EXPECT_EQ(consent.take()->strength, 0.25);
+  EXPECT_EQ(permission_at(consent.consent(), noon, 0).strength, 0.25);
+  EXPECT_EQ(consent_json(consent.consent(), noon).at("strength"), 0.25);
+  EXPECT_EQ(ConsentSwitch(file, {}, profile).consent().strength, 0.25);
+  consent.strength({{"strength", 1}});
+  EXPECT_FALSE(consent_json(consent.consent(), noon).contains("strength"));
+}
+
+TEST_F(TheConsentSwitch, takes_no_strength_beyond_the_limits_or_none_at_all) {
+  for (const Json& strength : {Json(0), Json(-0.1), Json(1.01), Json("1"), Json(nullptr), Json(true), Json::array({1})})
+    EXPECT_TRUE(consent.strength({{"strength", strength}}).contains("error")) << strength;
+  EXPECT_TRUE(consent.strength(Json::object()).contains("error"));
+  EXPECT_EQ(consent.consent(), Consent{});
+  EXPECT_FALSE(std::filesystem::exists(file));
+}
+
+TEST_F(TheConsentSwitch, adds_the_wearers_quiet_hours_to_those_of_the_configuration) {
+  ConsentSwitch quiet(file, {{11 * 60, 12 * 60 + 30}}, profile);
+  EXPECT_EQ(quiet.quiet({{"hours", "12:15-13:00"}}), Json({{"side", "passive"}, {"own_quiet_hours", "12:15-13:00"}}));
+  EXPECT_EQ(refusal(quiet, noon), FeltOutcome::quiet_hours);
+  EXPECT_EQ(refusal(quiet, noon + 59min), FeltOutcome::quiet_hours);
+  EXPECT_EQ(refusal(quiet, noon + 60min), std::nullopt);
+  EXPECT_EQ(refusal_text(quiet.consent(), noon + 20min), "quiet hours until 13:00") << "the one that ends last";
+  EXPECT_EQ(consent_json(quiet.consent(), noon).at("own_quiet_hours"), "12:15-13:00");
+  EXPECT_EQ(consent_json(quiet.consent(), noon).at("quiet_hours"), "11:00-12:30");
+  EXPECT_EQ(ConsentSwitch(file, {}, profile).consent().own_quiet_hours, quiet.consent().own_quiet_hours);
+  EXPECT_EQ(quiet.quiet({{"hours", ""}}).at("own_quiet_hours"), "");
+  EXPECT_EQ(refusal(quiet, noon), FeltOutcome::quiet_hours) << "the configuration's are not the wearer's to take away";
+  EXPECT_EQ(refusal(quiet, noon + 40min), std::nullopt);
+}
+
+TEST_F(TheConsentSwitch, takes_no_quiet_hours_that_are_none) {
+  for (const Json& hours :
+       {Json("20:30"), Json("25:00-26:00"), Json("10:00-10:00"), Json(20), Json(nullptr), Json::array()})
+    EXPECT_TRUE(consent.quiet({{"hours", hours}}).contains("error")) << hours;
+  EXPECT_TRUE(consent.quiet(Json::object()).contains("error"));
+  EXPECT_EQ(consent.consent(), Consent{});
+  EXPECT_FALSE(std::filesystem::exists(file));
+}
+
+TEST_F(TheConsentSwitch, tells_until_when_nothing_is_felt_if_it_is_known) {
+  consent.pause({{"minutes", 90}}, noon);
+  EXPECT_EQ(consent_json(consent.consent(), noon).at("until"), "13:30");
+  consent.pause(Json::object(), noon);
+  EXPECT_FALSE(consent_json(consent.consent(), noon).contains("until"));
+}
+
 TEST_F(TheConsentSwitch, changes_nothing_for_a_request_that_is_none) {
   for (const Json& minutes : {Json(0), Json(-1), Json(1441), Json(1.5), Json("5"), Json(nullptr), Json::array({1})})
     EXPECT_TRUE(consent.pause({{"minutes", minutes}}, noon).contains("error")) << minutes;

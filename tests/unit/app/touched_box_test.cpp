@@ -44,6 +44,15 @@ TEST(TouchedBox, IsFeltOnceTheOtherSideHasDrivenIt) {
   EXPECT_TRUE(touched.shown()->felt) << "the contact goes on";
 }
 
+TEST(TouchedBox, IsFeltAlsoIfTheAnswerIsHereBeforeTheContact) {
+  TouchedBox touched;
+  touched.felt(answer(1));
+  touched.sent(contact(1, Phase::down, 7));
+  EXPECT_TRUE(touched.shown()->felt);
+  touched.sent(contact(2, Phase::down, 8));
+  EXPECT_FALSE(touched.shown()->felt);
+}
+
 TEST(TouchedBox, IsThatOfTheFingerThatCameLast) {
   TouchedBox touched;
   touched.sent(contact(1, Phase::down, 7));

@@ -31,6 +31,19 @@ TEST_F(MakeFrameSource, MakesWhatTheSpecNames) {
   EXPECT_EQ(name_of("webcam:/dev/video7"), "webcam /dev/video7");
   EXPECT_EQ(name_of("replay:/some/where"), "recording /some/where");
   EXPECT_EQ(name_of("virtual"), "virtual");
+  EXPECT_EQ(name_of("virtual:7?/some/where"), "virtual");
+}
+
+TEST_F(MakeFrameSource, TellsAVirtualRigsSeedFromTheFolderThatDirectsIt) {
+  const auto rig = virtual_rig_spec("virtual:7?/some/where?else");
+  ASSERT_TRUE(rig);
+  EXPECT_EQ(rig->seed, 7u);
+  EXPECT_EQ(rig->directed_from, "/some/where?else");
+  EXPECT_FALSE(virtual_rig_spec("virtual")->seed);
+  EXPECT_EQ(virtual_rig_spec("virtual")->directed_from, "");
+  for (const char* none :
+       {"webcam", "virtual:", "virtual:x", "virtual:7x", "virtual?", "virtual:7?", "virtual:4294967296"})
+    EXPECT_FALSE(virtual_rig_spec(none)) << none;
 }
 
 TEST_F(MakeFrameSource, ChoosesTheWebcamItselfWhenNoneIsNamed) {

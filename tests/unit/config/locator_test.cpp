@@ -10,12 +10,14 @@ TEST(CameraSource, IsAWebcamARecordingOrTheVirtualRig) {
   EXPECT_EQ(parse_camera_source("webcam")->kind, CameraSourceKind::webcam);
   EXPECT_EQ(parse_camera_source("virtual")->kind, CameraSourceKind::virtual_rig);
   EXPECT_EQ(parse_camera_source("virtual:12")->kind, CameraSourceKind::virtual_rig);
+  EXPECT_EQ(parse_camera_source("virtual?/a/b?c")->kind, CameraSourceKind::virtual_rig);
+  EXPECT_EQ(parse_camera_source("virtual:12?/a/b")->kind, CameraSourceKind::virtual_rig);
   const auto recording = parse_camera_source("replay:/a/b:c");
   ASSERT_TRUE(recording);
   EXPECT_EQ(recording->kind, CameraSourceKind::recording);
   EXPECT_EQ(recording->folder, "/a/b:c");
-  for (const char* wrong :
-       {"", "replay:", "replay", "webcam ", "VIRTUAL", "virtual:", "virtual:-1", "virtual:x", "virtual:1234567890"})
+  for (const char* wrong : {"", "replay:", "replay", "webcam ", "VIRTUAL", "virtual:", "virtual:-1", "virtual:x",
+                            "virtual:1234567890", "virtual?", "virtual:12?", "webcam?/a"})
     EXPECT_FALSE(parse_camera_source(wrong));
 }
 

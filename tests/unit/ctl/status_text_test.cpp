@@ -61,24 +61,29 @@ TEST(StatusText, ShowsPartsItDoesNotKnow) {
   EXPECT_THAT(text, HasSubstr("mood         calm\n"));
 }
 
-TEST(StatusText, TellsOfEveryHeaterInALineOfItsOwn) {
+TEST(StatusText, TellsOfEveryHeaterInOneLine) {
   const std::string text = status_text(
-      {{"jacket",
-        {{"name", "coat"},
-         {"supply_v", 4.9},
-         {"heaters", {{{"celsius", 36.54}, {"fault", "none"}}, {{"celsius", nullptr}, {"fault", "sensor open"}}}}}}});
+      {{"jacket", {{"name", "coat"}, {"supply_v", 4.9}, {"heaters", {{{"celsius", 36.5}, {"fault", "none"}}}}}},
+       {"heaters",
+        {{{"id", 21}, {"name", "left"}, {"state", "ready"}, {"set_point_celsius", 36.9}, {"celsius", 33.44}},
+         {{"id", 22}, {"name", "right"}, {"set_point_celsius", 0}, {"celsius", 30.5}, {"why", "no hand warms it"}},
+         {{"id", 23}, {"name", "back"}, {"set_point_celsius", 0.0}, {"why", "it was too hot"}}}}});
   EXPECT_THAT(text, HasSubstr("  jacket       coat, supply_v 4.9\n"
-                              "  heater 0     36.5 C\n"
-                              "  heater 1     no reading, sensor open\n"));
+                              "  heater       left: 33.4 C, set-point 36.9 C\n"
+                              "  heater       right: 30.5 C, off: no hand warms it\n"
+                              "  heater       back: no reading, off: it was too hot\n"));
 }
 
-TEST(StatusText, SaysWhyNothingIsFeltAndHowEachHeaterIs) {
+TEST(StatusText, SaysWhyNothingIsFelt) {
   const std::string text =
-      status_text({{"consent", {{"name", "paused"}, {"why", "until 15:30"}, {"muted_boxes", {8}}}},
-                   {"heaters", {{{"name", "left"}, {"state", "ready"}}, {{"name", "right"}, {"state", "fault"}}}}});
+      status_text({{"consent", {{"name", "paused"}, {"why", "until 15:30"}, {"muted_boxes", {8}}}}});
   EXPECT_THAT(text, HasSubstr("consent      paused: until 15:30, muted_boxes [8]\n"));
-  EXPECT_THAT(text, HasSubstr("heaters      left, state ready\n"));
-  EXPECT_THAT(text, HasSubstr("heaters      right, state fault\n"));
+}
+
+TEST(StatusText, ShowsEachOfSeveralPartsItDoesNotKnow) {
+  const std::string text = status_text({{"moods", {{{"name", "left"}, {"calm", true}}, {{"name", "right"}}}}});
+  EXPECT_THAT(text, HasSubstr("moods        left, calm yes\n"));
+  EXPECT_THAT(text, HasSubstr("moods        right\n"));
 }
 
 TEST(StatusText, LetsNoControlCharacterThrough) {
@@ -96,8 +101,8 @@ TEST(StatusText, BearsPartsOfAnyType) {
                                  Json::array({1, "a", nullptr}),
                                  Json::object(),
                                  Json{{"connected", "perhaps"}, {"open", 3}, {"p50", {1}}}};
-  const std::vector<std::string> names{"side",  "state",  "version", "uptime_s", "problems",   "peer",
-                                       "peers", "camera", "jacket",  "counters", "latency_ms", "last_touch"};
+  const std::vector<std::string> names{"side",   "state",  "version", "uptime_s", "problems",   "peer",      "peers",
+                                       "camera", "jacket", "heaters", "counters", "latency_ms", "last_touch"};
   std::mt19937 random(3);
   for (int round = 0; round < 2000; ++round) {
     Json status = Json::object();

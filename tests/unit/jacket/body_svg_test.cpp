@@ -29,6 +29,16 @@ TEST(BodySvg, ShowsEveryActuatorAndWhichRun) {
   EXPECT_EQ(count(svg, "<g"), count(svg, "</g>"));
 }
 
+TEST(BodySvg, TellsPagesWhichActuatorIsWhichAndWhereTheBoxesAre) {
+  const auto profile = load_jacket_profile(TELEHUG_SOURCE "/deploy/jackets/duemilanove-16.toml").value();
+  const std::string svg = body_svg(profile, {});
+  for (const Actuator& actuator : profile.actuators)
+    EXPECT_EQ(count(svg, "data-actuator='" + std::to_string(actuator.id) + "'"), 1U);
+  // Five boxes of half a face height (70 px) each way, from the chin down, about the middle of each body.
+  EXPECT_THAT(svg, HasSubstr("data-side='front' data-grid='49 205 350 350'"));
+  EXPECT_THAT(svg, HasSubstr("data-side='back' data-grid='497 205 350 350'"));
+}
+
 TEST(BodySvg, TakesNamesForText) {
   JacketProfile profile;
   profile.name = "<b> & \"c\"";

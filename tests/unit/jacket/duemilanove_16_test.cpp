@@ -12,6 +12,7 @@
 #include "rendering/jacket_renderer.hpp"
 #include "safety/safety_stage.hpp"
 #include "unit/jacket/jacket_builders.hpp"
+#include "unit/jacket/wired_jacket.hpp"
 
 namespace telehug {
 namespace {
@@ -118,6 +119,23 @@ TEST(Duemilanove16, starts_its_motors_with_all_that_is_allowed) {
   Contact touch = contact_in(8);
   touch.strength = 0.25;
   EXPECT_EQ(commands_for(touch), fmt::format("6={} 60ms", full)) << "and off by itself if nobody comes back";
+}
+
+TEST(Duemilanove16, says_a_tap_between_two_motors_in_these_bytes) {
+  WiredJacket jacket("duemilanove-16.toml");
+  Contact tap = contact_in(13);
+  tap.body = {0.25, 1.25};
+  jacket.feel(tap);
+  jacket.pass(30ms);
+  tap.phase = Phase::up;
+  tap.gesture = Gesture::tap;
+  jacket.feel(tap);
+  jacket.pass(300ms);
+  EXPECT_EQ(jacket.log,
+            "0: 0b 10 06 0b c5 06 0c c5 06 7d a5 00\n"
+            "30: 0b 10 07 0b c5 03 0c c5 03 fc f1 00\n"
+            "40: 0b 10 08 0b a5 06 0c a5 06 03 85 00\n"
+            "90: 0b 10 09 0b a5 01 0c a5 01 a8 1c 00\n");
 }
 
 TEST(Duemilanove16, covers_four_rows_with_all_sixteen_channels) {

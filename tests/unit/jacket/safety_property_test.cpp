@@ -6,137 +6,17 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <optional>
-#include <random>
 
 #include "doubles/fake_jacket_link.hpp"
 #include "rendering/jacket_renderer.hpp"
 #include "safety/safety_stage.hpp"
+#include "unit/jacket/adversary.hpp"
 #include "unit/jacket/jacket_builders.hpp"
 #include "unit/safety/power_log.hpp"
 
 namespace telehug {
 namespace {
-
-class Adversary {
- public:
-  explicit Adversary(std::uint32_t seed) : random_(seed) {}
-
-  int whole(int least, int most) { return std::uniform_int_distribution(least, most)(random_); }
-  double real(double least, double most) { return std::uniform_real_distribution(least, most)(random_); }
-  bool one_in(int n) { return whole(1, n) == 1; }
-
-  // Now and then one that there can't be.
-  SenderNumber sender() { return static_cast<SenderNumber>(one_in(20) ? whole(0, 255) : whole(0, 2)); }
-  double strength() {
-    static constexpr double odd[]{std::numeric_limits<double>::quiet_NaN(),
-                                  std::numeric_limits<double>::infinity(),
-                                  -std::numeric_limits<double>::infinity(),
-                                  -1,
-                                  0,
-                                  1e-300,
-                                  1,
-                                  1e300};
-    return one_in(3) ? odd[whole(0, 7)] : real(-0.2, 1.4);
-  }
-  Timestamp end(Timestamp now) {
-    static const Timestamp odd[]{Timestamp::min(), Timestamp{}, now, Timestamp::max()};
-    return one_in(4) ? odd[whole(0, 3)] : now + std::chrono::milliseconds(whole(-100, 3000));
-  }
-  Drives drives(Timestamp now) {
-    Drives made;
-    for (int n = whole(0, one_in(10) ? 32 : 4); n > 0; --n) {
-      made.push_back({static_cast<std::uint8_t>(one_in(8) ? whole(0, 255) : whole(1, 10)), strength(), end(now)});
-    }
-    return made;
-  }
-  Contact contact() {
-    static constexpr double odd[]{std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity(),
-                                  -1e300, 1e300};
-    Contact made = contact_in(whole(1, 20), static_cast<std::uint32_t>(whole(1, 4)), static_cast<Phase>(whole(0, 2)));
-    made.strength = strength();
-    if (one_in(4)) made.box = static_cast<std::uint16_t>(whole(0, 65535));
-    if (one_in(4))
-      made.grid = {static_cast<std::uint16_t>(whole(0, 65535)), static_cast<std::uint16_t>(whole(0, 65535))};
-    if (one_in(4)) made.body.x_fh = odd[whole(0, 3)];
-    if (one_in(4)) made.body.y_fh = odd[whole(0, 3)];
-    return made;
-  }
-  std::int64_t frame_time_ns() {
-    static constexpr std::int64_t odd[]{std::numeric_limits<std::int64_t>::min(), 0,
-                                        std::numeric_limits<std::int64_t>::max()};
-    return one_in(10) ? odd[whole(0, 2)] : whole(0, 1'000'000'000);
-  }
-  Consent consent(std::chrono::sys_seconds now) {
-    Consent made;
-    if (one_in(5)) made.pause = Pause{};
-    if (made.pause && one_in(2)) made.pause->until = now + std::chrono::seconds(whole(-5, 5));
-    for (int n = one_in(3) ? whole(1, 3) : 0; n > 0; --n)
-      made.quiet_hours.push_back({whole(0, minutes_of_day - 1), whole(0, minutes_of_day - 1)});
-    for (int n = one_in(2) ? whole(1, 3) : 0; n > 0; --n)
-      made.muted_actuators.set(static_cast<std::size_t>(whole(0, 10)));
-    return made;
-  }
-  std::optional<JacketTelemetry> telemetry(Timestamp now) {
-    static constexpr double odd[]{std::numeric_limits<double>::quiet_NaN(), -1e300, 41, 1e300};
-    if (one_in(10)) return std::nullopt;
-    JacketTelemetry told;
-    told.heard = one_in(6) ? now + std::chrono::milliseconds(whole(-5000, 5000)) : now;
-    for (int n = one_in(8) ? whole(0, 2) : 2; n > 0; --n) {
-      auto& heater = told.heaters.emplace_back();
-      if (!one_in(10)) heater.celsius = one_in(10) ? odd[whole(0, 3)] : real(15, 40);
-      if (one_in(10)) heater.fault = static_cast<protocol::HeaterFault>(whole(0, 6));
-    }
-    return told;
-  }
-  TouchEvent event() {
-    TouchEvent made;
-    made.sequence = static_cast<std::uint64_t>(whole(0, 20));
-    made.frame_time_ns = frame_time_ns();
-    for (int n = whole(0, static_cast<int>(max_contacts)); n > 0; --n)
-      made.contacts.push_back(contact());
-    for (int n = whole(0, static_cast<int>(max_transitions)); n > 0; --n) {
-      made.transitions.push_back({static_cast<std::uint64_t>(whole(0, 20)), frame_time_ns(), contact()});
-    }
-    return made;
-  }
-
- private:
-  std::mt19937 random_;
-};
-
-JacketProfile random_profile(Adversary& adversary) {
-  JacketProfile profile = profile_of({}, adversary.one_in(2) ? Uncovered::nearest : Uncovered::none);
-  if (adversary.one_in(2)) profile.rendering = Rendering::places;
-  for (int id = 1; id <= 8; ++id) {
-    Actuator made = motor(static_cast<std::uint8_t>(id), {}, {});
-    made.channel = static_cast<std::uint8_t>(15 - id);
-    made.place = {adversary.real(-1, 1), adversary.real(0, 2)};
-    for (int n = adversary.whole(0, 3); n > 0; --n) {
-      made.boxes.push_back(static_cast<std::uint16_t>(adversary.whole(1, 20)));
-    }
-    made.max_strength = adversary.real(0, 1);
-    made.min_strength = adversary.real(0, made.max_strength);
-    made.gamma = adversary.real(0.2, 5);
-    made.kick = std::chrono::milliseconds(adversary.whole(0, 100));
-    made.enabled = !adversary.one_in(10);
-    if (adversary.one_in(2)) made.max_duty = adversary.real(0.01, 1);
-    if (!adversary.one_in(4)) made.current_ma = adversary.real(0, 120);
-    profile.actuators.push_back(made);
-  }
-  for (int heater = 0; heater < 2; ++heater) {
-    Actuator made = motor(static_cast<std::uint8_t>(9 + heater), {}, {});
-    made.kind = ActuatorKind::heater;
-    made.channel = static_cast<std::uint8_t>(heater);
-    made.max_celsius = adversary.real(32, 45);
-    made.enabled = !adversary.one_in(10);
-    profile.actuators.push_back(made);
-  }
-  if (adversary.one_in(2)) profile.supply_ma = adversary.real(1, 120);
-  profile.duty_window = std::chrono::milliseconds(adversary.whole(1, 3000));
-  return profile;
-}
 
 // A daemon that lives through everything that can happen to it, on a fake clock, checked at every step.
 class HauntedJacket {
@@ -232,6 +112,8 @@ class HauntedJacket {
     });
   }
   [[nodiscard]] const SafetyCounters& counters() const { return safety_.counters(); }
+  // An actuator that may be driven but for the box that it lies in was asked to be.
+  [[nodiscard]] bool muted_a_box() const { return muted_a_box_; }
 
  private:
   void move_clock() {
@@ -275,6 +157,11 @@ class HauntedJacket {
   // Drives that no planner would make, or those that the planner makes of touches that nobody would send.
   void apply() {
     const SafetyVerdict verdict = safety_.apply(adversary_.sender(), some_drives(), now_);
+    for (const std::uint8_t id : verdict.muted) {
+      const Actuator& actuator = profile_.actuators.at(profile_.index_of(id).value());
+      EXPECT_TRUE(silenced(actuator));
+      muted_a_box_ = muted_a_box_ || (actuator.enabled && !safety_.permission().muted_actuators.test(id));
+    }
     if (safety_.stopped()) {
       EXPECT_EQ(verdict.outcome, FeltOutcome::stopped);
     } else if (safety_.permission().refusal) {
@@ -330,7 +217,16 @@ class HauntedJacket {
   }
 
   [[nodiscard]] bool silenced(const Actuator& actuator) const {
-    return !actuator.enabled || safety_.permission().muted_actuators.test(actuator.id);
+    return !actuator.enabled || safety_.permission().muted_actuators.test(actuator.id) || in_muted_box(actuator);
+  }
+  [[nodiscard]] bool in_muted_box(const Actuator& actuator) const {
+    for (int box = 1; box <= 20; ++box) {
+      const BodyPoint middle = middle_of(box);
+      const bool inside =
+          std::abs(actuator.place.x_fh - middle.x_fh) < 0.25 && std::abs(actuator.place.y_fh - middle.y_fh) < 0.25;
+      if (inside && safety_.permission().muted_boxes.test(static_cast<std::size_t>(box))) return true;
+    }
+    return false;
   }
 
   void check_heat(const FakeJacket::HeatFrame& frame) {
@@ -406,6 +302,7 @@ class HauntedJacket {
   std::size_t checked_ = 0;
   std::size_t checked_heat_ = 0;
   std::size_t taken_stops_ = 0;
+  bool muted_a_box_ = false;
 };
 
 TEST(SafetyStageWithAnyInput, stays_within_every_limit_and_is_off_when_the_sender_dies) {
@@ -413,6 +310,7 @@ TEST(SafetyStageWithAnyInput, stays_within_every_limit_and_is_off_when_the_sende
   int heated = 0;
   int tired = 0;
   int short_of_current = 0;
+  int muted_boxes = 0;
   for (std::uint32_t seed = 1; seed <= 1500; ++seed) {
     SCOPED_TRACE(seed);
     HauntedJacket haunted(seed);
@@ -424,12 +322,14 @@ TEST(SafetyStageWithAnyInput, stays_within_every_limit_and_is_off_when_the_sende
     heated += haunted.heated() ? 1 : 0;
     tired += haunted.counters().limited_by_duty > 0 ? 1 : 0;
     short_of_current += haunted.counters().limited_by_current > 0 ? 1 : 0;
+    muted_boxes += haunted.muted_a_box() ? 1 : 0;
   }
   // It has been tried, not just avoided.
   EXPECT_GT(drove, 1000);
   EXPECT_GT(heated, 300);
   EXPECT_GT(tired, 300);
   EXPECT_GT(short_of_current, 200);
+  EXPECT_GT(muted_boxes, 300);
 }
 
 TEST(SafetyStageWithAnyInput, leaves_a_jacket_that_is_silent_250_ms_after_the_daemon_dies) {

@@ -25,9 +25,9 @@ class SafetyStageTest : public ::testing::Test {
  protected:
   SafetyStageTest() { start({}); }
 
-  void start(SafetyLimits limits) {
+  void start(SafetyLimits limits, const JacketProfile& profile = three_motors()) {
     safety.reset();
-    safety.emplace(std::make_unique<FakeJacketLink>(jacket), three_motors(), limits);
+    safety.emplace(std::make_unique<FakeJacketLink>(jacket), profile, limits);
     safety->tick(now);
     safety->on_heartbeat(0, now);
     jacket.stops = 0;

@@ -10,6 +10,7 @@
 #include <sstream>
 
 #include "doubles/fake_clock.hpp"
+#include "unit/jacket/jacket_builders.hpp"
 
 namespace telehug {
 namespace {
@@ -53,11 +54,28 @@ TEST(MakeLink, LooksForTheOnlySerialDevice) {
 }
 
 TEST(MakeLink, SpeaksAsTheProfileSays) {
-  EXPECT_TRUE((*make_link("serial:/dev/null"))->status().answers);
-  LinkOptions options;
-  options.protocol = LinkProtocol::legacy;
-  EXPECT_FALSE((*make_link("serial:/dev/null", options))->status().answers);
-  EXPECT_FALSE((*make_link("rfcomm:00:11:22:33:44:55/3", options))->status().answers);
+  JacketProfile profile = profile_of({motor(1, {}, {})});
+  EXPECT_TRUE((*make_link("serial:/dev/null", link_options(profile)))->status().answers);
+  profile.protocol = JacketProtocol::legacy;
+  EXPECT_FALSE((*make_link("serial:/dev/null", link_options(profile)))->status().answers);
+  EXPECT_FALSE((*make_link("rfcomm:00:11:22:33:44:55/3", link_options(profile)))->status().answers);
+}
+
+TEST(MakeLink, TakesTheSpeedOfTheProfileUnlessItIsGivenAnother) {
+  JacketProfile profile = profile_of({motor(1, {}, {})});
+  profile.baud = 38400;
+  EXPECT_EQ(link_options(profile).baud, 38400U);
+  EXPECT_EQ(link_options(profile, 9600).baud, 9600U);
+}
+
+TEST(MakeLink, SimulatesTheBoardThatTheProfileNeeds) {
+  JacketProfile profile = profile_of({motor(1, {}, {}), motor(2, {}, {})});
+  EXPECT_EQ(link_options(profile).simulator.board, "motors16");
+  profile.actuators[1].kind = ActuatorKind::heater;
+  EXPECT_EQ(link_options(profile).simulator.board, "motors12_heaters2");
+  profile.actuators.pop_back();
+  profile.protocol = JacketProtocol::legacy;
+  EXPECT_EQ(link_options(profile).simulator.board, "legacy");
 }
 
 TEST(MakeLink, TellsThatAFileIsNoSerialPort) {

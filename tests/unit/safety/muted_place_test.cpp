@@ -38,6 +38,18 @@ TEST(MutedPlace, holds_against_a_box_and_a_place_that_do_not_belong_together) {
   EXPECT_TRUE(is_muted(contact, boxes({7})));
 }
 
+TEST(MutedPlace, holds_for_an_actuator_that_lies_in_it) {
+  Permission permission;
+  permission.muted_boxes = boxes({8, 13});
+  for (int box = 1; box <= 20; ++box)
+    EXPECT_EQ(is_muted(1, middle_of(box), permission), box == 8 || box == 13) << box;
+  EXPECT_TRUE(is_muted(1, {-0.25, 0.5}, permission)) << "its upper left corner is a part of it";
+  EXPECT_FALSE(is_muted(1, {0.25, 0.5}, permission)) << "the next box begins there";
+  permission.muted_actuators.set(3);
+  EXPECT_TRUE(is_muted(3, middle_of(1), permission));
+  EXPECT_FALSE(is_muted(2, middle_of(1), permission));
+}
+
 TEST(MutedPlace, bears_any_place_and_box) {
   MutedBoxes all;
   all.set();
@@ -49,6 +61,7 @@ TEST(MutedPlace, bears_any_place_and_box) {
       contact.box = 65535;
       contact.body = {x, y};
       EXPECT_FALSE(is_muted(contact, all));
+      EXPECT_FALSE(is_muted(1, contact.body, {{}, all, {}}));
     }
   }
 }

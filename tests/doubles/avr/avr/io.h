@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* What the firmware's board.hpp takes from avr-libc, for building its session on the host. Nothing is behind the ports. */
+/* Of avr-libc what the firmware's board.hpp needs to build on the host. Nothing is behind the ports. */
 #pragma once
 
 #include <stdint.h>

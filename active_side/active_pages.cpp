@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "active_pages.hpp"
+
+#include "active_daemon.hpp"
+
+namespace telehug {
+
+std::span<const EmbeddedFile> active_pages();  // generated
+
+namespace {
+
+constexpr Duration status_interval = 250ms;
+
+}  // namespace
+
+DaemonPagesOptions active_pages_options() {
+  return {.side = Side::active,
+          .commands = {"status", "stop", "resume", "send", "face", "hug", "pairing"},
+          .topics = {"status", "touch", "pairing"},
+          .files = active_pages()};
+}
+
+void ActiveDaemon::tell_pages() {
+  const Timestamp now = clock_.now();
+  live_touches_.forget(now);
+  if (!pages_.has_followers()) return;
+  if (const auto news = live_touches_.news()) pages_.tell("touch", *news);
+  if (const auto news = pairing_->news()) pages_.tell("pairing", *news);
+  if (now - told_pages_ < status_interval) return;
+  told_pages_ = now;
+  pages_.tell("status", status());
+}
+
+}  // namespace telehug
