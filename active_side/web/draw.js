@@ -47,7 +47,7 @@ function placePen() {
 function lookAgain() {
   map = screenMap(monitorOf(window), pageOf(window, pointer), size);
   canvas.className = paper;
-  shown.show(map, palette().colours);
+  shown.show(map, palette());
   placePen();
   for (const [i, button] of [...part("colours").children].entries())
     button.querySelector("i").style.background = palette().colours[i];

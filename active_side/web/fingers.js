@@ -35,7 +35,8 @@ export class Fingers {
     part("run").classList.toggle("main", !this.#on);
     const hindrance = this.#hindrance();
     write(part("hint"), text(hindrance || (this.#on ? "fingers.on" : "fingers.off")));
-    part("to-setup").hidden = hindrance !== "fingers.not_calibrated" || !this.#status.web.pages.includes("setup.html");
+    const way = part("to-setup");
+    way.hidden = hindrance !== "fingers.not_calibrated" || !this.#status.web.pages.includes(way.getAttribute("href").slice(1));
     const {missed} = this.#frames;
     write(part("missed"), missed > 0 ? text("fingers.missed", {count: missed}) : "");
   }

@@ -41,7 +41,8 @@ function draw(now) {
   const {paper, colours} = palettes.dark;
   const context = canvas.getContext("2d");
   context.setTransform(devicePixelRatio, 0, 0, devicePixelRatio, 0, 0);
-  context.clearRect(0, 0, innerWidth, innerHeight);
+  context.fillStyle = paper;
+  context.fillRect(0, 0, innerWidth, innerHeight);
   context.font = "bold 28px system-ui, sans-serif";
   context.textAlign = "center";
   context.textBaseline = "middle";

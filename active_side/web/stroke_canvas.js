@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Strokes on a canvas, once a picture of the screen at the most. Finished ones are kept as a picture of their own, so that
+// Strokes on paper, once a picture of the screen at the most. Finished ones are kept as a picture of their own, so that
 // the time for one more point does not grow with the drawing.
 import {smoothPath, tracePath} from "./smooth_path.js";
 
@@ -21,7 +21,7 @@ export class StrokeCanvas {
   #canvas;
   #drawing;
   #map;
-  #colours;
+  #palette;
   #kept = document.createElement("canvas");
   #keptStrokes = null;  // that are on it
   #waits = false;
@@ -31,10 +31,10 @@ export class StrokeCanvas {
     this.#drawing = drawing;
   }
 
-  // Also after the window's size, the map or the colours have changed.
-  show(map, colours) {
+  // Also after the window's size, the map or the palette has changed.
+  show(map, palette) {
     this.#map = map;
-    this.#colours = colours;
+    this.#palette = palette;
     const {width, height} = this.#canvas.getBoundingClientRect();
     for (const canvas of [this.#canvas, this.#kept]) {
       canvas.width = Math.round(width * devicePixelRatio);
@@ -57,9 +57,11 @@ export class StrokeCanvas {
     const {finished, growing} = this.#drawing;
     if (finished !== this.#keptStrokes) this.#keep(finished);
     const context = this.#canvas.getContext("2d");
-    context.clearRect(0, 0, this.#canvas.width, this.#canvas.height);
+    // The canvas' own background would not do: Chromium keeps showing the one before.
+    context.fillStyle = this.#palette.paper;
+    context.fillRect(0, 0, this.#canvas.width, this.#canvas.height);
     if (this.#kept.width > 0 && this.#kept.height > 0) context.drawImage(this.#kept, 0, 0);
-    drawStrokes(context, growing, this.#map, devicePixelRatio, this.#colours);
+    drawStrokes(context, growing, this.#map, devicePixelRatio, this.#palette.colours);
   }
 
   // Most often there is one stroke more than before.
@@ -69,7 +71,7 @@ export class StrokeCanvas {
     const context = this.#kept.getContext("2d");
     if (!grown) context.clearRect(0, 0, this.#kept.width, this.#kept.height);
     const fresh = grown ? finished.slice(before.length) : finished;
-    drawStrokes(context, fresh, this.#map, devicePixelRatio, this.#colours);
+    drawStrokes(context, fresh, this.#map, devicePixelRatio, this.#palette.colours);
     this.#keptStrokes = finished;
   }
 }

@@ -57,6 +57,20 @@ async function draw(strokes) {
   }
 }
 
+// What colours a PNG has at these [x, y], and its size.
+async function look(png, places) {
+  return page.evaluate(async ([data, all]) => {
+    const bytes = Uint8Array.from(atob(data), (one) => one.charCodeAt(0));
+    const bitmap = await createImageBitmap(new Blob([bytes], {type: "image/png"}));
+    const context = new OffscreenCanvas(bitmap.width, bitmap.height).getContext("2d", {willReadFrequently: true});
+    context.drawImage(bitmap, 0, 0);
+    const hex = (value) => value.toString(16).padStart(2, "0");
+    const colours = all.map(([x, y]) => `#${[...context.getImageData(x, y, 1, 1).data].slice(0, 3).map(hex).join("")}`);
+    return {size: [bitmap.width, bitmap.height], colours};
+  }, [png.toString("base64"), places]);
+}
+const inPixels = ([x_mm, y_mm]) => [x_mm * SCREEN.width_px / SCREEN.width_mm, y_mm * SCREEN.height_px / SCREEN.height_mm];
+
 function report(what, drawn, written) {
   const all = drawn.flatMap((line, i) => deviations(line.points, written[i]));
   const mean = all.reduce((sum, one) => sum + one, 0) / all.length;
@@ -119,18 +133,20 @@ describe("The page to draw on", () => {
   });
 
   test("saves a picture of it", async () => {
-    const [{points: [[x_mm, y_mm]]}] = await lines();
-    const picture = (await saved("p")).toString("base64");
-    const read = await page.evaluate(async ([data, x, y]) => {
-      const bytes = Uint8Array.from(atob(data), (one) => one.charCodeAt(0));
-      const bitmap = await createImageBitmap(new Blob([bytes], {type: "image/png"}));
-      const context = new OffscreenCanvas(bitmap.width, bitmap.height).getContext("2d", {willReadFrequently: true});
-      context.drawImage(bitmap, 0, 0);
-      const at = (px, py) => [...context.getImageData(px, py, 1, 1).data];
-      return {size: [bitmap.width, bitmap.height], ink: at(x, y), paper: at(5, 5)};
-    }, [picture, x_mm * SCREEN.width_px / SCREEN.width_mm, y_mm * SCREEN.height_px / SCREEN.height_mm]);
-    assert.deepEqual(read, {size: [SCREEN.width_px, SCREEN.height_px], ink: [0xee, 0xf2, 0xf7, 255],
-                            paper: [0x12, 0x16, 0x1d, 255]});
+    const [{points: [begin]}] = await lines();
+    const places = [inPixels(begin), [5, 1000]];
+    const wanted = {size: [SCREEN.width_px, SCREEN.height_px], colours: ["#eef2f7", "#12161d"]};
+    assert.deepEqual(await look(await saved("p"), places), wanted);
+    assert.deepEqual(await look(await page.screenshot(), places), wanted, "and that is what is seen");
+  });
+
+  test("has light paper, too", async () => {
+    const [{points: [begin]}] = await lines();
+    await page.keyboard.press("b");
+    const {colours} = await look(await page.screenshot(), [inPixels(begin), [5, 1000]]);
+    assert.deepEqual(colours, ["#1a2230", "#ffffff"]);
+    await page.keyboard.press("b");
+    assert.deepEqual((await look(await page.screenshot(), [[5, 1000]])).colours, ["#12161d"]);
   });
 
   test("draws with two fingers at once", async () => {
@@ -192,7 +208,6 @@ describe("The page to draw on", () => {
     await page.mouse.move(840, 700, {steps: 5});
     await page.mouse.up();
     const [{points}] = await lines();
-    const inPixels = ([x, y]) => [x * SCREEN.width_px / SCREEN.width_mm, y * SCREEN.height_px / SCREEN.height_mm];
     for (const [found, wanted] of [[points[0], [640, 600]], [points.at(-1), [840, 700]]])
       for (const axis of [0, 1]) assert.ok(Math.abs(inPixels(found)[axis] - wanted[axis]) < 1, `${inPixels(found)}`);
   });
