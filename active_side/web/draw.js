@@ -5,7 +5,7 @@ import {Drawing} from "./drawing.js";
 import {Fingers} from "./fingers.js";
 import {KeyboardPen} from "./keyboard_pen.js";
 import {palettes} from "./palette.js";
-import {monitorOf, pageOf, screenMap} from "./screen_map.js";
+import {ScreenPlace} from "./screen_place.js";
 import {drawStrokes, StrokeCanvas} from "./stroke_canvas.js";
 import {svgOfDrawing} from "./svg_of_drawing.js";
 
@@ -16,10 +16,9 @@ const canvas = part("paper");
 const drawing = new Drawing();
 const shown = new StrokeCanvas(canvas, drawing);
 const pen = new KeyboardPen();
+const place = new ScreenPlace(lookAgain);
 let paper = "dark";
 let looks = {colour: 0, width_mm: WIDTHS_MM[2]};
-let size;  // of the calibrated screen
-let pointer;  // an event of a mouse or pen, which know where the page is on the screen
 let map;
 
 const palette = () => palettes[paper];
@@ -45,7 +44,7 @@ function placePen() {
 }
 
 function lookAgain() {
-  map = screenMap(monitorOf(window), pageOf(window, pointer), size);
+  map = place.map;
   canvas.className = paper;
   shown.show(map, palette());
   placePen();
@@ -87,7 +86,8 @@ function saveSvg() {
 }
 
 async function savePng() {
-  const picture = make("canvas", {width: size?.width_px || screen.width, height: size?.height_px || screen.height});
+  const picture = make("canvas", {width: place.size?.width_px || screen.width,
+                                  height: place.size?.height_px || screen.height});
   const context = picture.getContext("2d");
   context.fillStyle = palette().paper;
   context.fillRect(0, 0, picture.width, picture.height);
@@ -104,23 +104,19 @@ async function turnFullScreen() {
 
 const hand = (id) => `finger ${id}`;
 const fingers = new Fingers({
-  down: (id, place) => {
-    drawing.begin(hand(id), place, looks);
+  down: (id, point) => {
+    drawing.begin(hand(id), point, looks);
     refresh();
   },
-  move: (id, place) => {
-    drawing.extend(hand(id), place);
+  move: (id, point) => {
+    drawing.extend(hand(id), point);
     refresh();
   },
   up: (id) => {
     drawing.end(hand(id));
     refresh();
   },
-}, (measured) => {
-  if (JSON.stringify(size) === JSON.stringify(measured)) return;
-  size = measured;
-  lookAgain();
-});
+}, (size) => place.resize(size));
 
 // By the button's id; the key that does the same.
 const actions = {
@@ -174,28 +170,19 @@ function onKey(event) {
   }
 }
 
-function lookWherePageIs(event) {
-  const known = pointer && ["X", "Y"].every((axis) =>
-    Math.abs(event[`screen${axis}`] - event[`client${axis}`] - pointer[`screen${axis}`] + pointer[`client${axis}`]) < 1);
-  if (known) return;
-  pointer = event;
-  lookAgain();
-}
-
 function beginPointers() {
-  window.addEventListener("pointermove", lookWherePageIs, {capture: true});
-  const place = (event) => map.toScreen({x: event.offsetX, y: event.offsetY});
+  const at = (event) => map.toScreen({x: event.offsetX, y: event.offsetY});
   const id = (event) => `pointer ${event.pointerId}`;
   canvas.addEventListener("pointerdown", (event) => {
     // A touchscreen that telehug itself feeds would draw everything twice.
     if (event.button !== 0 || (event.pointerType === "touch" && fingers.on)) return;
     canvas.setPointerCapture(event.pointerId);
-    drawing.begin(id(event), place(event), looks);
+    drawing.begin(id(event), at(event), looks);
     refresh();
   });
   canvas.addEventListener("pointermove", (event) => {
     const all = event.getCoalescedEvents?.() ?? [];
-    for (const one of all.length > 0 ? all : [event]) drawing.extend(id(event), place(one));
+    for (const one of all.length > 0 ? all : [event]) drawing.extend(id(event), at(one));
     if (event.buttons !== 0) refresh();
   });
   for (const name of ["pointerup", "pointercancel"]) {
@@ -237,7 +224,5 @@ choose(0);
 writeAgain();
 beginPointers();
 document.addEventListener("keydown", onKey);
-window.addEventListener("resize", lookAgain);
-document.addEventListener("fullscreenchange", lookAgain);
 refresh();
 canvas.focus();

@@ -4,7 +4,7 @@ import {beginPage, make, onPress, text, write} from "/shared/page.js";
 import {BALLOONS, Balloons} from "./balloons.js";
 import {Fingers} from "./fingers.js";
 import {palettes} from "./palette.js";
-import {monitorOf, pageOf, screenMap} from "./screen_map.js";
+import {ScreenPlace} from "./screen_place.js";
 
 const LONGEST_STEP_S = 0.1;  // a page that was hidden does not leap
 
@@ -13,12 +13,12 @@ const KEYS = {run: "s", full: "f"};  // by the button's id
 const part = (id) => document.getElementById(id);
 const canvas = part("paper");
 const balloons = new Balloons(Math.random);
-let size;
 let map;
-let drawn;
+let drawn;  // when
+const place = new ScreenPlace(lookAgain);
 
 function lookAgain() {
-  map = screenMap(monitorOf(window), pageOf(window), size);
+  map = place.map;
   canvas.width = Math.round(innerWidth * devicePixelRatio);
   canvas.height = Math.round(innerHeight * devicePixelRatio);
 }
@@ -27,13 +27,9 @@ function showScore(number) {
   if (number) write(part("score"), text("game.score", {count: balloons.popped}));
 }
 
-const hit = (place) => showScore(balloons.hit(place, map));
-const fingers = new Fingers({down: (_, place) => hit(place), move: (_, place) => hit(place), up: () => {}}, (measured) => {
-  if (JSON.stringify(size) === JSON.stringify(measured)) return;
-  size = measured;
-  lookAgain();
-  balloons.begin(map);
-});
+const hit = (point) => showScore(balloons.hit(point, map));
+const hands = {down: (_, point) => hit(point), move: (_, point) => hit(point), up: () => {}};
+const fingers = new Fingers(hands, (size) => place.resize(size));
 
 function draw(now) {
   balloons.step(Math.min(LONGEST_STEP_S, (now - (drawn ?? now)) / 1000), map);
@@ -66,8 +62,8 @@ function writeAgain() {
 
 await beginPage(writeAgain);
 lookAgain();
-balloons.begin(map);
 await fingers.begin();
+balloons.begin(map);
 for (const [id, key] of Object.entries(KEYS)) {
   part(id).setAttribute("aria-keyshortcuts", key);
   part(id).append(" ", make("kbd", {textContent: key.toUpperCase()}));
@@ -84,6 +80,4 @@ document.addEventListener("keydown", (event) => {
   for (const id of Object.keys(KEYS)) if (event.key.toLowerCase() === KEYS[id]) part(id).click();
   if (number >= 1 && number <= BALLOONS) showScore(balloons.pop(number, map));
 });
-window.addEventListener("resize", lookAgain);
-document.addEventListener("fullscreenchange", lookAgain);
 requestAnimationFrame(draw);
