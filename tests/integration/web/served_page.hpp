@@ -48,7 +48,7 @@ class TheWebServer : public testing::Test {
  protected:
   void begin() {
     server.emplace(
-        options, WebSiteOptions{"telehug-test", {"echo", "silence"}, {"news"}}, WebFiles({served_files}),
+        options, WebSiteOptions{"telehug-test", {"echo", "silence"}, {"news", "weather"}}, WebFiles({served_files}),
         [this](const nlohmann::json& request, const WebServer::Answered& answered) {
           ++asked;
           if (request.at("command") == "echo") answered(request);
