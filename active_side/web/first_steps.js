@@ -36,14 +36,10 @@ function lead(step, pages) {
   location.assign(step.page);
 }
 
-// Some pages are of no use before camera and screen are set up.
-const NEEDS_CALIBRATION = ["/draw.html"];
-
+// Some are of use only once there is a calibration.
 function showLinks(pages, calibrated) {
-  for (const link of document.querySelectorAll("#pages a")) {
-    const page = link.getAttribute("href");
-    link.hidden = !isThere(page, pages) || (NEEDS_CALIBRATION.includes(page) && !calibrated);
-  }
+  for (const link of document.querySelectorAll("#pages a"))
+    link.hidden = !isThere(link.getAttribute("href"), pages) || (link.className === "calibrated" && !calibrated);
 }
 
 // Leads to the page of the first step that is left. `begins`: the page has just been opened.
