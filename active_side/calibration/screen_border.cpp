@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <opencv2/imgproc.hpp>
 #include <optional>
 #include <utility>
 
@@ -113,9 +114,15 @@ const LevelLine* nearest_line(const std::vector<LevelLine>& lines, const ImagePo
   return nearest;
 }
 
-// The line on which the two edges of the triangle meet: one edge falls to the left of the vertex, one to its right.
-std::optional<ScreenBorder> line_at_triangle(const std::vector<LineSegment>& segments,
-                                             const std::vector<LevelLine>& lines, double least_length_px) {
+// Two edges that meet as the triangle's do: one falls to the left of the vertex, one to its right.
+struct TriangleEdges {
+  LineSegment left;
+  LineSegment right;
+  ImagePoint vertex;
+  [[nodiscard]] double length() const { return length_px(left) + length_px(right); }
+};
+
+std::vector<TriangleEdges> possible_triangles(const std::vector<LineSegment>& segments) {
   std::vector<LineSegment> edges;
   for (const LineSegment& segment : segments) {
     const double deg = std::abs(inclination_deg(segment));
@@ -123,8 +130,7 @@ std::optional<ScreenBorder> line_at_triangle(const std::vector<LineSegment>& seg
       edges.push_back(segment);
     }
   }
-  std::optional<ScreenBorder> best;
-  double best_length_px = 0;
+  std::vector<TriangleEdges> found;
   for (const LineSegment& left : edges) {
     if (inclination_deg(left) > 0) continue;  // rises to the right, to the vertex
     for (const LineSegment& right : edges) {
@@ -134,15 +140,41 @@ std::optional<ScreenBorder> line_at_triangle(const std::vector<LineSegment>& seg
           vertex->u_px - vertex_limit_px > right.left.u_px) {
         continue;
       }
-      const LevelLine* line = nearest_line(lines, *vertex, least_length_px);
-      const double length = length_px(left) + length_px(right);
-      if (line != nullptr && length > best_length_px) {
-        best = ScreenBorder{line->line, line->length_px, vertex};
-        best_length_px = length;
-      }
+      found.push_back({left, right, *vertex});
     }
   }
-  return best;
+  std::sort(found.begin(), found.end(),
+            [](const TriangleEdges& a, const TriangleEdges& b) { return a.length() > b.length(); });
+  return found;
+}
+
+// The line on which the triangle's edges meet.
+std::optional<ScreenBorder> line_at_triangle(const std::vector<LineSegment>& segments,
+                                             const std::vector<LevelLine>& lines, double least_length_px) {
+  for (const TriangleEdges& triangle : possible_triangles(segments)) {
+    const LevelLine* line = nearest_line(lines, triangle.vertex, least_length_px);
+    if (line != nullptr) return ScreenBorder{line->line, line->length_px, triangle.vertex};
+  }
+  return std::nullopt;
+}
+
+// Whether it is darker below this edge than above it, all along it.
+bool darker_below(const cv::Mat& grey, const LineSegment& edge) {
+  constexpr double aside_px = 12;
+  constexpr double darker = 0.85;
+  const double length = length_px(edge);
+  const double across_u = -(edge.right.v_px - edge.left.v_px) / length * aside_px;
+  const double across_v = (edge.right.u_px - edge.left.u_px) / length * aside_px;
+  const auto light = [&](double u, double v) {
+    const cv::Rect part = cv::Rect(static_cast<int>(u) - 3, static_cast<int>(v) - 3, 7, 7) & cv::Rect({}, grey.size());
+    return part.empty() ? 0 : cv::mean(grey(part))[0];
+  };
+  for (const double along : {0.25, 0.5, 0.75}) {
+    const double u = edge.left.u_px + along * (edge.right.u_px - edge.left.u_px);
+    const double v = edge.left.v_px + along * (edge.right.v_px - edge.left.v_px);
+    if (light(u + across_u, v + across_v) > darker * light(u - across_u, v - across_v)) return false;
+  }
+  return true;
 }
 
 // `lines` is sorted, the longest first, and not empty.
@@ -159,6 +191,19 @@ const LevelLine* longest_line(const std::vector<LevelLine>& lines, double middle
 
 std::vector<LevelLine> find_level_lines(const cv::Mat& bgr) {
   return merge_by_level(find_line_segments(bgr));
+}
+
+std::optional<ImagePoint> find_triangle_vertex(const cv::Mat& bgr) {
+  if (bgr.empty() || bgr.type() != CV_8UC3) return std::nullopt;
+  // The whole triangle reaches over some of the screen: short pairs are things on the desk.
+  constexpr double least_part = 0.2;  // of the picture's width, both edges together
+  cv::Mat grey;
+  cv::cvtColor(bgr, grey, cv::COLOR_BGR2GRAY);
+  for (const TriangleEdges& triangle : possible_triangles(find_line_segments(bgr))) {
+    if (triangle.length() < least_part * bgr.cols) break;
+    if (darker_below(grey, triangle.left) && darker_below(grey, triangle.right)) return triangle.vertex;
+  }
+  return std::nullopt;
 }
 
 std::optional<PointObservation> triangle_mark(const ScreenBorder& border, const ScreenSize& screen) {

@@ -43,6 +43,10 @@ std::optional<PointObservation> triangle_mark(const ScreenBorder& border, const 
 // `bgr` is CV_8UC3. The error says what was not found and what to do.
 Result<ScreenBorder> find_screen_border(const cv::Mat& bgr, BorderChoice choice);
 
+// The triangle without a line: where two inclined edges meet below which it is darker than beside it. Of dim screens in
+// light bezels the bottom edge can't be told from the bezel, the triangle can. `bgr` is CV_8UC3.
+std::optional<ImagePoint> find_triangle_vertex(const cv::Mat& bgr);
+
 // All candidates, the longest first; for pages that let a person pick.
 std::vector<LevelLine> find_level_lines(const cv::Mat& bgr);
 
