@@ -122,11 +122,12 @@ struct TriangleEdges {
   [[nodiscard]] double length() const { return length_px(left) + length_px(right); }
 };
 
-std::vector<TriangleEdges> possible_triangles(const std::vector<LineSegment>& segments) {
+// The longest first. Of rolled cameras one edge may be as level as borders are.
+std::vector<TriangleEdges> possible_triangles(const std::vector<LineSegment>& segments, double least_deg) {
   std::vector<LineSegment> edges;
   for (const LineSegment& segment : segments) {
     const double deg = std::abs(inclination_deg(segment));
-    if (deg >= triangle_least_deg && deg <= triangle_largest_deg && length_px(segment) >= triangle_least_length_px) {
+    if (deg >= least_deg && deg <= triangle_largest_deg && length_px(segment) >= triangle_least_length_px) {
       edges.push_back(segment);
     }
   }
@@ -151,7 +152,7 @@ std::vector<TriangleEdges> possible_triangles(const std::vector<LineSegment>& se
 // The line on which the triangle's edges meet.
 std::optional<ScreenBorder> line_at_triangle(const std::vector<LineSegment>& segments,
                                              const std::vector<LevelLine>& lines, double least_length_px) {
-  for (const TriangleEdges& triangle : possible_triangles(segments)) {
+  for (const TriangleEdges& triangle : possible_triangles(segments, triangle_least_deg)) {
     const LevelLine* line = nearest_line(lines, triangle.vertex, least_length_px);
     if (line != nullptr) return ScreenBorder{line->line, line->length_px, triangle.vertex};
   }
@@ -177,6 +178,29 @@ bool darker_below(const cv::Mat& grey, const LineSegment& edge) {
   return true;
 }
 
+std::optional<ScreenBorder> triangle_alone(const cv::Mat& bgr, const std::vector<LineSegment>& segments,
+                                           const std::vector<LevelLine>& lines) {
+  // The whole triangle reaches over some of the screen: short pairs are things on the desk.
+  constexpr double least_part = 0.2;  // of the picture's width, both edges together
+  constexpr double least_between_deg = 10;
+  constexpr double farthest_part = 0.15;  // of the picture's height, that the bezel's edges are away from the screen's
+  cv::Mat grey;
+  cv::cvtColor(bgr, grey, cv::COLOR_BGR2GRAY);
+  for (const TriangleEdges& triangle : possible_triangles(segments, 0)) {
+    if (triangle.length() < least_part * bgr.cols) break;
+    if (inclination_deg(triangle.right) - inclination_deg(triangle.left) < least_between_deg) continue;
+    if (!darker_below(grey, triangle.left) || !darker_below(grey, triangle.right)) continue;
+    const ImagePoint& vertex = triangle.vertex;
+    const auto level = std::find_if(lines.begin(), lines.end(), [&](const LevelLine& line) {
+      return line.length_px >= least_part_of_width * bgr.cols &&
+             distance_px(line.line, vertex) < farthest_part * bgr.rows;
+    });
+    const double slope = level == lines.end() ? 0 : level->line.slope;
+    return ScreenBorder{{vertex.v_px - slope * vertex.u_px, slope}, 0, vertex};
+  }
+  return std::nullopt;
+}
+
 // `lines` is sorted, the longest first, and not empty.
 const LevelLine* longest_line(const std::vector<LevelLine>& lines, double middle_u_px) {
   const LevelLine* lowest = &lines.front();
@@ -193,19 +217,6 @@ std::vector<LevelLine> find_level_lines(const cv::Mat& bgr) {
   return merge_by_level(find_line_segments(bgr));
 }
 
-std::optional<ImagePoint> find_triangle_vertex(const cv::Mat& bgr) {
-  if (bgr.empty() || bgr.type() != CV_8UC3) return std::nullopt;
-  // The whole triangle reaches over some of the screen: short pairs are things on the desk.
-  constexpr double least_part = 0.2;  // of the picture's width, both edges together
-  cv::Mat grey;
-  cv::cvtColor(bgr, grey, cv::COLOR_BGR2GRAY);
-  for (const TriangleEdges& triangle : possible_triangles(find_line_segments(bgr))) {
-    if (triangle.length() < least_part * bgr.cols) break;
-    if (darker_below(grey, triangle.left) && darker_below(grey, triangle.right)) return triangle.vertex;
-  }
-  return std::nullopt;
-}
-
 std::optional<PointObservation> triangle_mark(const ScreenBorder& border, const ScreenSize& screen) {
   // Two lines some pixels wide meet there, and more steeply in u than in v.
   constexpr double sigma_u_px = 1.5;
@@ -219,6 +230,10 @@ Result<ScreenBorder> find_screen_border(const cv::Mat& bgr, BorderChoice choice)
   const auto segments = find_line_segments(bgr);
   const auto lines = merge_by_level(segments);
   const double least_length_px = least_part_of_width * bgr.cols;
+  if (choice == BorderChoice::triangle_alone) {
+    if (const auto border = triangle_alone(bgr, segments, lines)) return *border;
+    return Error{"no triangle found: show it on the whole screen, with its point in the camera's view"};
+  }
   if (lines.empty() || lines.front().length_px < least_length_px) {
     return Error{
         fmt::format("no border of the screen found: the longest level line covers {:.0f} of {} columns; let "

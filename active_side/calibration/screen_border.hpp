@@ -26,9 +26,12 @@ struct LevelLine {
 };
 
 enum class BorderChoice {
-  triangle,  // the picture shows a black triangle with one vertex on the screen's bottom edge: it picks the line
-  longest,   // no triangle: the longest line, the lowest of those equally long. May be another edge than the
-             // screen's own: in one sample it is the bezel's mirror image, 9 px below
+  triangle,        // the picture shows a black triangle with one vertex on the screen's bottom edge: it picks the line
+  triangle_alone,  // where the triangle's edges meet, if below them it is darker: of dim screens in light bezels no
+                   // line is found there. The line goes through the vertex, as level as the longest one; its length is
+                   // 0
+  longest,  // no triangle: the longest line, the lowest of those equally long. May be another edge than the
+            // screen's own: in one sample it is the bezel's mirror image, 9 px below
 };
 
 struct ScreenBorder {
@@ -42,10 +45,6 @@ std::optional<PointObservation> triangle_mark(const ScreenBorder& border, const 
 
 // `bgr` is CV_8UC3. The error says what was not found and what to do.
 Result<ScreenBorder> find_screen_border(const cv::Mat& bgr, BorderChoice choice);
-
-// The triangle without a line: where two inclined edges meet below which it is darker than beside it. Of dim screens in
-// light bezels the bottom edge can't be told from the bezel, the triangle can. `bgr` is CV_8UC3.
-std::optional<ImagePoint> find_triangle_vertex(const cv::Mat& bgr);
 
 // All candidates, the longest first; for pages that let a person pick.
 std::vector<LevelLine> find_level_lines(const cv::Mat& bgr);

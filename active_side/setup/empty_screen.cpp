@@ -46,21 +46,6 @@ double middle_row(const BorderLine& line, const cv::Mat& bgr) {
   return line.v_at(0.5 * bgr.cols);
 }
 
-std::optional<ScreenBorder> triangle_border(const cv::Mat& bgr) {
-  const auto found = find_screen_border(bgr, BorderChoice::triangle);
-  return found ? std::optional(*found) : std::nullopt;
-}
-
-std::optional<ScreenBorder> triangle_alone(const cv::Mat& bgr) {
-  const auto vertex = find_triangle_vertex(bgr);
-  return vertex ? std::optional(ScreenBorder{{vertex->v_px, 0}, 0, vertex}) : std::nullopt;
-}
-
-std::optional<ScreenBorder> longest_border(const cv::Mat& bgr) {
-  const auto found = find_screen_border(bgr, BorderChoice::longest);
-  return found ? std::optional(*found) : std::nullopt;
-}
-
 // Grey levels of fields of about 16 x 16 px in pictures of 1280 columns.
 cv::Mat fields_of(const cv::Mat& bgr) {
   constexpr int columns = 80;
@@ -108,19 +93,18 @@ void EmptyScreenSteps::forget() {
 // The triangle's line as the picture is, then upside down; the triangle without a line; else the longest line, or none.
 void EmptyScreenSteps::find_border(const cv::Mat& bgr, SetupState& state) {
   border_found_ = false;
-  const auto found = [&](const std::optional<ScreenBorder>& border, bool upside_down) {
-    seen_.border = border.value_or(ScreenBorder{});
-    seen_.upside_down = border && upside_down;
-    border_found_ = border.has_value();
-    return border_found_;
+  const auto look = [&](BorderChoice choice, bool upside_down) {
+    if (border_found_ || (upside_down && !may_be_upside_down_)) return;
+    seen_.upside_down = upside_down;
+    const auto found = find_screen_border(seen_.turned(bgr), choice);
+    border_found_ = found.ok();
+    seen_.border = found ? *found : ScreenBorder{};
   };
-  const auto look = [&](std::optional<ScreenBorder> (*search)(const cv::Mat&)) {
-    if (found(search(bgr), false)) return true;
-    if (!may_be_upside_down_) return false;
-    seen_.upside_down = true;
-    return found(search(seen_.turned(bgr)), true);
-  };
-  if (!look(triangle_border) && !look(triangle_alone)) found(longest_border(bgr), false);
+  for (const BorderChoice choice : {BorderChoice::triangle, BorderChoice::triangle_alone}) {
+    look(choice, false);
+    look(choice, true);
+  }
+  look(BorderChoice::longest, false);
   tell_border(state);
 }
 
