@@ -151,7 +151,12 @@ LookOutcome EmptyScreenSteps::look_bright(const cv::Mat& bgr, Timestamp now, Set
   }
   if (still_.still_for() < (at_the_triangle ? bright_still : without_triangle) || too_dark) return LookOutcome::wait;
   seen_.triangle = still_.picture();
+  const EmptyScreen before = seen_;
   find_border(seen_.triangle, state);
+  if (at_the_triangle && !seen_.border.vertex) {  // just not in that picture
+    seen_ = before;
+    tell_border(state);
+  }
   white_fields_ = fields_of(seen_.turned(seen_.triangle));
   return LookOutcome::done;
 }
