@@ -193,7 +193,7 @@ void WebConnection::written(const boost::system::error_code& problem) {
 }
 
 void WebConnection::begin_stream(const WebStream& stream) {
-  if (!host_.takes_stream()) {
+  if (!host_.takes_stream(stream.topics)) {
     keep_alive_ = false;
     answer(WebSite::refusal(503, "too many pages are open: close one"));
     return;

@@ -33,7 +33,7 @@ class WebConnection : public std::enable_shared_from_this<WebConnection> {
     [[nodiscard]] virtual WebReply reply(const WebRequest& request) = 0;
     virtual void ask(nlohmann::json request, const std::shared_ptr<WebConnection>& connection) = 0;
     [[nodiscard]] virtual const LiveTopics& live() const = 0;
-    [[nodiscard]] virtual bool takes_stream() = 0;
+    [[nodiscard]] virtual bool takes_stream(const std::vector<std::string>& topics) = 0;
     virtual void answered(unsigned status) = 0;
     virtual void closed(const std::shared_ptr<WebConnection>& connection) = 0;
   };
@@ -50,6 +50,7 @@ class WebConnection : public std::enable_shared_from_this<WebConnection> {
 
   [[nodiscard]] bool known() const noexcept { return known_; }
   [[nodiscard]] bool streaming() const noexcept { return streaming_; }
+  [[nodiscard]] const std::map<std::string, std::uint64_t>& followed() const noexcept { return followed_; }
   [[nodiscard]] std::uint64_t number() const noexcept { return number_; }  // grows with each connection
 
  private:

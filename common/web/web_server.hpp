@@ -68,6 +68,8 @@ class WebServer {
   void tell(const std::string& topic, const nlohmann::json& news);
   // Whether anybody follows any: for news that are costly to put together.
   [[nodiscard]] bool has_followers() const noexcept;
+  // Whether anybody follows this one.
+  [[nodiscard]] bool has_followers(const std::string& topic) const noexcept;
 
   [[nodiscard]] WebServerStats stats() const noexcept;
 
