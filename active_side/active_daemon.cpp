@@ -134,6 +134,7 @@ void ActiveDaemon::touch_loop() {
     } else {
       rest();
     }
+    if (rig_) fingers_.put(rig_->pipeline.contacts(), rig_->pipeline.time());
     tell_state(now);
     notifier_.alive(now);
   }
@@ -177,7 +178,7 @@ bool ActiveDaemon::camera_wanted(Timestamp now) {
   // Switched off by hand, the camera is not needed; covered by another window the chat may be back at once.
   const bool touches_go_out =
       rig_ && anybody_listens(now) && !stop_.stopped() && sending_switch_.mode() != SendingMode::off;
-  const bool used_here = rig_ && local_touch_.on() && !stop_.stopped();
+  const bool used_here = rig_ && (local_touch_.on() || fingers_.wanted()) && !stop_.stopped();
   if (!touches_go_out && !used_here) recording_over_ = false;
   if (rig_) rig_->face->want(touches_go_out && !recording_over_);
   // Before it is known where the remote person is, fingers mean nothing to the other side.
@@ -231,7 +232,8 @@ void ActiveDaemon::rest() {
 }
 
 void ActiveDaemon::judge_sending(bool screen_known) {
-  const bool sends = screen_known && sending_switch_.judge(rig_->face->view()) == SendingVerdict::sends;
+  const bool sends =
+      screen_known && sending_switch_.judge(rig_->face->view(), fingers_.wanted()) == SendingVerdict::sends;
   sending_ = sends;
   withholding_ = screen_known && !sends;
 }
@@ -239,8 +241,8 @@ void ActiveDaemon::judge_sending(bool screen_known) {
 // What touches the screen while touches don't go out touches nobody until it is lifted: a finger that closes the window
 // in front of the chat, a cloth, a stroke on this PC's own programs.
 void ActiveDaemon::hold_back() {
-  const bool switched_off = sending_switch_.mode() == SendingMode::off;
-  if (!withholding_ && !switched_off) return;
+  const bool kept_here = sending_switch_.mode() == SendingMode::off || fingers_.wanted();
+  if (!withholding_ && !kept_here) return;
   rig_->pipeline.hold_back_contacts();
   for (const ContactState& contact : rig_->pipeline.contacts())
     if (contact.phase == Phase::down) ++own_state_.withheld;
@@ -295,6 +297,7 @@ void ActiveDaemon::tell_state(Timestamp now) {
   own_state_.face = rig_ ? rig_->face : nullptr;
   own_state_.detector = rig_ ? rig_->detector : "";
   own_state_.model = rig_ ? rig_->model : "";
+  own_state_.screen = rig_ ? std::optional(rig_->pipeline.screen()) : std::nullopt;
   own_state_.knows_background = !rig_ || rig_->pipeline.knows_background();
   for (const auto& wearer : wearers_.adopted())
     wearer->connection.tell_state(now);

@@ -20,6 +20,7 @@
 #include "daemon/pairing_desk.hpp"
 #include "daemon/stop_switch.hpp"
 #include "feedback/felt_feedback.hpp"
+#include "finger_feed.hpp"
 #include "live_touches.hpp"
 #include "local_touch/local_touch.hpp"
 #include "notify/desktop_notifier.hpp"
@@ -57,8 +58,9 @@ struct TouchThreadState {
   std::string camera_setup;
   FrameVerdict picture = FrameVerdict::good;
   std::shared_ptr<FaceWorker> face;
-  std::string detector;  // in use; empty: there is no calibration
-  std::string model;     // likewise
+  std::string detector;              // in use; empty: there is no calibration
+  std::string model;                 // likewise
+  std::optional<ScreenSize> screen;  // likewise
   bool knows_background = true;
   NobodyTouched nobody;
   std::uint64_t withheld = 0;  // touches that did not go out because of the sending switch
@@ -73,8 +75,8 @@ struct SeenHug {
 };
 
 // The parent's PC: one thread for the touch path, one for the face (FaceWorker), the calling one for everything that
-// may take its time. Touches go to every wearer who is connected. The camera is open only while one is, or this PC uses
-// the touches itself, and the screen is looked at only while one is.
+// may take its time. Touches go to every wearer who is connected. The camera is open only while one is, or this PC or
+// one of its pages uses the touches itself, and the screen is looked at only while one is.
 class ActiveDaemon {
  public:
   // Throws AlreadyRunning, std::runtime_error or std::invalid_argument with a sentence for a person.
@@ -166,6 +168,7 @@ class ActiveDaemon {
   LatestSlot<std::unique_ptr<Rig>> new_rig_;
   LatestSlot<std::unique_ptr<FrameSource>> new_camera_;
   LocalTouch local_touch_;
+  FingerFeed fingers_;
   StopSwitch stop_;
   SendingSwitch sending_switch_;
   std::atomic<bool> ending_ = false;

@@ -18,7 +18,7 @@ constexpr Duration status_interval = 250ms;
 DaemonPagesOptions active_pages_options(LivePicture setup_camera) {
   return {.side = Side::active,
           .commands = {"status", "stop", "resume", "send", "face", "hug", "pairing", "setup"},
-          .topics = {"status", "touch", "pairing", "setup"},
+          .topics = {"status", "touch", "fingers", "pairing", "setup"},
           .pictures = {{"setup.jpg", std::move(setup_camera)}},
           .files = active_pages()};
 }
@@ -26,6 +26,8 @@ DaemonPagesOptions active_pages_options(LivePicture setup_camera) {
 void ActiveDaemon::tell_pages() {
   const Timestamp now = clock_.now();
   live_touches_.forget(now);
+  fingers_.follow(pages_.has_followers("fingers"), now);
+  if (const auto news = fingers_.news()) pages_.tell("fingers", *news);
   if (!pages_.has_followers()) return;
   if (const auto news = live_touches_.news()) pages_.tell("touch", *news);
   if (const auto news = pairing_->news()) pages_.tell("pairing", *news);

@@ -10,6 +10,9 @@
 namespace telehug {
 namespace {
 
+// Who means to touch is there within half a second; who waits so long in the air may believe that they do.
+constexpr Duration hovers_only_after = 1500ms;
+
 BorderPlace place_of(const BorderLine& border) {
   return {border.v0_px, border.slope};
 }
@@ -38,6 +41,7 @@ ActivePipeline::ActivePipeline(const Calibration& calibration, AnyDetector detec
       frames_duplicate_(metrics.counter("frames_duplicate")),
       light_changes_(metrics.counter("light_changes")),
       fingers_off_screen_(metrics.counter("fingers_off_screen")),
+      fingers_hovered_(metrics.counter("fingers_hovered")),
       background_relearned_(metrics.counter("background_relearned")),
       touches_seen_(metrics.counter("touches_seen")),
       check_latency_(metrics.latency("frame_check")),
@@ -52,6 +56,7 @@ const TouchEvent* ActivePipeline::process(const Frame& frame, const BodyMap& map
   const Timestamp checked = clock_.now();
   check_latency_.record(checked - started);
   count(findings);
+  const Timestamp before = newest_;
   const Timestamp time = rising(frame.time);
   if (findings.verdict != FrameVerdict::good) return report(tracker_.pass(time), map, sending, time);
 
@@ -67,6 +72,7 @@ const TouchEvent* ActivePipeline::process(const Frame& frame, const BodyMap& map
   const Timestamp placed = clock_.now();
   const ContactStates& contacts = tracker_.update(touched.fingers, time, scene);
   touch_latency_.record(clock_.now() - placed);
+  count_hovering(before, time);
   return report(contacts, map, sending, time);
 }
 
@@ -88,6 +94,12 @@ void ActivePipeline::count(const FrameFindings& findings) {
   light_settles_ = findings.settling;
   verdict_ = findings.verdict;
   if (const BackgroundLearner* const learner = background(detector_)) background_relearned_.set(learner->relearned());
+}
+
+// Each finger once.
+void ActivePipeline::count_hovering(Timestamp before, Timestamp now) {
+  for (const HoveringFinger& finger : tracker_.hovering())
+    if (now - finger.since >= hovers_only_after && before - finger.since < hovers_only_after) fingers_hovered_.add();
 }
 
 Timestamp ActivePipeline::rising(Timestamp time) {

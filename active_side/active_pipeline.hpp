@@ -49,6 +49,8 @@ class ActivePipeline {
     return frame_check_.wants_whole_pictures() ? RowRange{} : rows_needed_;
   }
   [[nodiscard]] const ContactStates& contacts() const noexcept { return *contacts_; }
+  // Of the last frame, or when it was missing.
+  [[nodiscard]] Timestamp time() const noexcept { return newest_; }
   [[nodiscard]] const ScreenSize& screen() const noexcept { return screen_; }
   // Of the newest picture.
   [[nodiscard]] FrameVerdict verdict() const noexcept { return verdict_; }
@@ -60,6 +62,7 @@ class ActivePipeline {
 
  private:
   void count(const FrameFindings& findings);
+  void count_hovering(Timestamp before, Timestamp now);
   // From here on time rises: a camera that comes back stamps its first frame a little before it was last missed.
   Timestamp rising(Timestamp time);
   void leave_out_held_back(BoxedContacts& boxed);
@@ -90,6 +93,7 @@ class ActivePipeline {
   Counter& frames_duplicate_;
   Counter& light_changes_;
   Counter& fingers_off_screen_;
+  Counter& fingers_hovered_;
   Counter& background_relearned_;
   Counter& touches_seen_;
   LatencyHistogram& check_latency_;

@@ -124,13 +124,16 @@ Json ActiveDaemon::order_face(const Json& request) {
 
 Json ActiveDaemon::sending_json(const TouchThreadState& state) const {
   if (!state.face) return {{"name", name_of(sending_switch_.mode())}, {"on", false}, {"why", "not calibrated"}};
-  const SendingVerdict verdict = sending_switch_.judge(state.face->view());
+  const SendingVerdict verdict = sending_switch_.judge(state.face->view(), fingers_.wanted());
   Json sending = {{"name", name_of(sending_switch_.mode())}, {"on", verdict == SendingVerdict::sends}};
   switch (verdict) {
     case SendingVerdict::sends:
       break;
     case SendingVerdict::switched_off:
       sending["why"] = "switched off";
+      break;
+    case SendingVerdict::used_here:
+      sending["why"] = "a page uses the fingers";
       break;
     case SendingVerdict::not_seen:
       sending["why"] = "the pinned window is not seen";
@@ -186,7 +189,8 @@ Json ActiveDaemon::problems(const TouchThreadState& state, const FaceState& face
   if (state.recording_over) list.push_back(problem_json("the recording is over", "start again to replay it"));
   if (no_face(face)) {
     list.push_back(problem_json(face.problem, "touches are not sent until a face is found; check [body_map]"));
-  } else if (face.open && sending_switch_.judge(state.face->view()) == SendingVerdict::never_pinned) {
+  } else if (face.open &&
+             sending_switch_.judge(state.face->view(), fingers_.wanted()) == SendingVerdict::never_pinned) {
     list.push_back(problem_json("touches don't go out: it is not known whether the video chat is in front",
                                 "run `telehug send on`; on X11 [body_map] window pins the window of the chat"));
   }
@@ -264,6 +268,11 @@ Json ActiveDaemon::status() const {
   if (face.map.version != 0 && face.scale) answer["face"]["places_px"] = body_map_json(face.map, *face.scale);
   for (const LocalTouchState& output : local_touch_.states())
     answer["local_touch"][output.name] = output.open ? "on" : output.problem.empty() ? "waits for the camera" : "fails";
+  if (state.screen)
+    answer["touch_screen"] = {{"width_mm", state.screen->width_mm},
+                              {"height_mm", state.screen->height_mm},
+                              {"width_px", state.screen->width_px},
+                              {"height_px", state.screen->height_px}};
   if (state.last_touch) answer["last_touch"] = touch_json(*state.last_touch);
   {
     const std::lock_guard lock(words_mutex_);

@@ -7,6 +7,7 @@
 #include <system_error>
 
 #include "common/outside_json.hpp"
+#include "config/quiet_hours_text.hpp"
 #include "files/private_file.hpp"
 #include "files/text_file.hpp"
 
@@ -57,6 +58,12 @@ std::optional<double> strength_in(const Json& json) {
   return strength > 0 && strength <= 1 ? std::optional(strength) : std::nullopt;
 }
 
+std::optional<QuietHours> quiet_hours_in(const Json& json) {
+  if (!json.is_string()) return std::nullopt;
+  const auto hours = parse_quiet_hours(json.get<std::string>());
+  return hours ? std::optional(*hours) : std::nullopt;
+}
+
 Json pause_json(const std::optional<Pause>& pause) {
   if (!pause || !pause->until) return pause.has_value();
   return static_cast<std::uint64_t>(std::max<std::int64_t>(0, pause->until->time_since_epoch().count()));
@@ -66,8 +73,9 @@ Json pause_json(const std::optional<Pause>& pause) {
 
 Result<Consent> parse_consent(std::string_view text) {
   const Json json = parse_outside_json(text);
-  // Versions before the strength wrote none.
-  if (!json.is_object() || json.size() != (json.contains("strength") ? 5 : 4)) return damaged;
+  // Versions before these two wrote none.
+  const std::size_t newer = json.count("strength") + json.count("quiet_hours");
+  if (!json.is_object() || json.size() != 4 + newer) return damaged;
   for (const char* key : {"format", "paused", "muted_boxes", "muted_actuators"})
     if (!json.contains(key)) return damaged;
   if (json.at("format") != format) return damaged;
@@ -75,12 +83,14 @@ Result<Consent> parse_consent(std::string_view text) {
   const auto boxes = set_of<largest_box + 1>(json.at("muted_boxes"));
   const auto actuators = set_of<256>(json.at("muted_actuators"));
   const auto strength = strength_in(json.value("strength", Json(1.0)));
-  if (!pause || !boxes || !actuators || !strength) return damaged;
+  const auto hours = quiet_hours_in(json.value("quiet_hours", Json("")));
+  if (!pause || !boxes || !actuators || !strength || !hours) return damaged;
   Consent consent;
   consent.pause = *pause;
   consent.muted_boxes = *boxes;
   consent.muted_actuators = *actuators;
   consent.strength = *strength;
+  consent.own_quiet_hours = *hours;
   return consent;
 }
 
@@ -99,7 +109,8 @@ Status keep_consent(const std::filesystem::path& file, const Consent& consent) {
                   {"paused", pause_json(consent.pause)},
                   {"muted_boxes", numbers_in(consent.muted_boxes)},
                   {"muted_actuators", numbers_in(consent.muted_actuators)},
-                  {"strength", consent.strength}};
+                  {"strength", consent.strength},
+                  {"quiet_hours", quiet_hours_text(consent.own_quiet_hours)}};
   return keep_private_file(file, json.dump() + "\n");
 }
 

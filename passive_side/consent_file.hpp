@@ -10,8 +10,9 @@
 
 namespace telehug {
 
-// Pause and mutes as they are kept over restarts (the quiet hours are the configuration's). A file that is not there is
-// one that holds nothing. Anything else than what keep_consent() has written is an error, which completes "file: ".
+// What the wearer wants as it is kept over restarts (Consent::quiet_hours are the configuration's). A file that is not
+// there is one that holds nothing. Anything else than what keep_consent() has written is an error, which completes
+// "file: ".
 [[nodiscard]] Result<Consent> read_consent(const std::filesystem::path& file);
 [[nodiscard]] Result<Consent> parse_consent(std::string_view text);
 

@@ -50,7 +50,7 @@ Result<std::vector<std::size_t>> numbers(const Json& request, const char* key, s
 // The time of day at which nothing is felt until; empty: none is known.
 std::string end_of(const Consent& consent, FeltOutcome refusal, std::chrono::sys_seconds now) {
   if (refusal == FeltOutcome::quiet_hours) {
-    const auto span = quiet_span_at(consent.quiet_hours, local_minute(now));
+    const auto span = quiet_span_at(consent, local_minute(now));
     return span ? time_of_day_text(span->end_min) : "";
   }
   const bool ends = consent.pause && consent.pause->until;
@@ -92,6 +92,7 @@ void ConsentSwitch::serve(ControlServer& control, std::function<void()> changed)
   control.on("unpause", [this](const Json&) { return unpause(); });
   control.on("mute", [this](const Json& request) { return mute(request, true); });
   control.on("strength", [this](const Json& request) { return strength(request); });
+  control.on("quiet", [this](const Json& request) { return quiet(request); });
   control.on("unmute", [this](const Json& request) { return mute(request, false); });
 }
 
@@ -151,6 +152,17 @@ Json ConsentSwitch::strength(const Json& request) {
   return set(wanted, {{"side", "passive"}, {"strength", strength}});
 }
 
+Json ConsentSwitch::quiet(const Json& request) {
+  const auto given = request.find("hours");
+  if (given == request.end() || !given->is_string())
+    return {{"error", "the hours must be a text such as \"20:30-07:00,13:00-14:00\"; an empty one: none"}};
+  const auto hours = parse_quiet_hours(given->get<std::string>());
+  if (!hours) return {{"error", hours.error().message}};
+  Consent wanted = consent();
+  wanted.own_quiet_hours = *hours;
+  return set(wanted, {{"side", "passive"}, {"own_quiet_hours", quiet_hours_text(*hours)}});
+}
+
 Json ConsentSwitch::set(const Consent& consent, Json answer) {
   {
     const std::lock_guard lock(mutex_);
@@ -193,6 +205,7 @@ Json consent_json(const Consent& consent, std::chrono::sys_seconds now) {
   if (refusal && !end_of(consent, *refusal, now).empty()) json["until"] = end_of(consent, *refusal, now);
   if (consent.strength < 1) json["strength"] = consent.strength;
   if (!consent.quiet_hours.empty()) json["quiet_hours"] = quiet_hours_text(consent.quiet_hours);
+  if (!consent.own_quiet_hours.empty()) json["own_quiet_hours"] = quiet_hours_text(consent.own_quiet_hours);
   if (consent.muted_boxes.any()) json["muted_boxes"] = numbers_in(consent.muted_boxes);
   if (consent.muted_actuators.any()) json["muted_actuators"] = numbers_in(consent.muted_actuators);
   return json;

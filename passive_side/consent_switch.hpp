@@ -24,8 +24,8 @@ class ConsentSwitch {
   // What was kept in `file`. If that can't be read everything is paused.
   ConsentSwitch(std::filesystem::path file, QuietHours hours, const JacketProfile& profile);
 
-  // Adds the commands "pause", "unpause", "mute", "unmute" and "strength" to `control`. `changed`: called after each
-  // change, on the thread of the control server; both outlive it.
+  // Adds the commands "pause", "unpause", "mute", "unmute", "strength" and "quiet" to `control`. `changed`: called
+  // after each change, on the thread of the control server; both outlive it.
   void serve(ControlServer& control, std::function<void()> changed);
 
   // --- control thread: what the commands do; each takes effect before it is kept ---
@@ -34,6 +34,7 @@ class ConsentSwitch {
   nlohmann::json unpause();
   nlohmann::json mute(const nlohmann::json& request, bool muted);
   nlohmann::json strength(const nlohmann::json& request);
+  nlohmann::json quiet(const nlohmann::json& request);
 
   // --- drive thread ---
 
@@ -61,8 +62,8 @@ class ConsentSwitch {
 // One sentence without a full stop on why nothing is felt at this moment: "paused until 15:30"; empty if it may be.
 [[nodiscard]] std::string refusal_text(const Consent& consent, std::chrono::sys_seconds now);
 
-// For status: {"name": "open" | "paused" | "quiet hours", "why", "until", "strength", "quiet_hours", "muted_boxes",
-// "muted_actuators"}, those that say nothing left out.
+// For status: {"name": "open" | "paused" | "quiet hours", "why", "until", "strength", "quiet_hours",
+// "own_quiet_hours", "muted_boxes", "muted_actuators"}, those that say nothing left out.
 [[nodiscard]] nlohmann::json consent_json(const Consent& consent, std::chrono::sys_seconds now);
 
 }  // namespace telehug

@@ -19,7 +19,7 @@ nlohmann::json running_json(const std::set<std::uint8_t>& actuators) {
 
 DaemonPagesOptions passive_pages_options() {
   return {.side = Side::passive,
-          .commands = {"status", "stop", "resume", "pause", "unpause", "mute", "unmute", "strength", "jacket",
+          .commands = {"status", "stop", "resume", "pause", "unpause", "mute", "unmute", "strength", "quiet", "jacket",
                        "jacket_trial", "hug", "pairing"},
           .topics = {"status", "running", "pairing"},
           .files = passive_pages()};

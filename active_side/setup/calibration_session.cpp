@@ -73,7 +73,7 @@ class CalibrationSession::Conversation {
     const SetupStep step = state_.step;
     look_at(bgr, now);
     tell();
-    if (!active_at_ || state_.taken != taken || state_.step != step || state_.finger_px) active_at_ = now;
+    if (!active_at_ || state_.taken != taken || state_.step != step) active_at_ = now;
     end_if_idle(now);
   }
 
@@ -274,7 +274,7 @@ class CalibrationSession::Conversation {
   std::optional<Calibration> calibration_;
   SetupState state_;
   std::optional<Timestamp> picture_at_;
-  std::optional<Timestamp> active_at_;  // when something happened last
+  std::optional<Timestamp> active_at_;  // when it went on last
 };
 
 CalibrationSession::CalibrationSession(SessionSettings settings)

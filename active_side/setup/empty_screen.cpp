@@ -19,10 +19,10 @@ constexpr int looks_per_search = 6;  // pictures, in which edges are searched fo
 constexpr double moved_px = 6;       // of the border: the camera was turned
 constexpr int most_tries = 4;        // of finding marks: then it goes on without
 constexpr int most_backgrounds = 3;  // that are taken before somebody who seems to be there is believed to be furniture
-// A white page of the rigs of active_side/training is seen at 100 to 250 grey levels, a black one at a fifth of that.
+// Chosen, not measured: the lightest tenth of a picture with a white page in it is well above.
 constexpr double dark_bright_page = 60;
-constexpr double black_part = 0.8;
-// Noise of a covered lens is 2 to 3.
+constexpr double black_part = 0.8;  // of what the white page was, compared with the rest of the picture
+// Chosen, not measured: little more than the noise of a covered lens.
 constexpr double dark_desk = 6;
 
 double percentile(const cv::Mat& bgr, double part) {
@@ -164,12 +164,13 @@ LookOutcome EmptyScreenSteps::look_confirm(const cv::Mat& bgr, SetupState& state
   return moved ? LookOutcome::back : LookOutcome::wait;
 }
 
-// Of the part of the picture that shows the screen; of all of it where no border is known.
+// How much lighter than the rest of the picture is the part that shows the screen (its lower half where no border is
+// known)? The camera's exposure is in both.
 double EmptyScreenSteps::screen_light(const cv::Mat& bgr) const {
+  const double edge = border_found_ ? middle_row(seen_.border.line, bgr) : 0.5 * bgr.rows;
+  const int first = std::clamp(static_cast<int>(edge), 1, bgr.rows - 1);
   const cv::Mat upright = seen_.turned(bgr);
-  const int first =
-      border_found_ ? std::clamp(static_cast<int>(middle_row(seen_.border.line, bgr)), 0, bgr.rows - 2) : 0;
-  return light_of(upright.rowRange(first, bgr.rows));
+  return (light_of(upright.rowRange(first, bgr.rows)) + 1) / (light_of(upright.rowRange(0, first)) + 1);
 }
 
 LookOutcome EmptyScreenSteps::look_background(const cv::Mat& bgr, Timestamp now, SetupState& state) {

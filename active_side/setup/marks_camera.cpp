@@ -96,6 +96,11 @@ std::vector<ScreenBorder> possible_borders(const EmptyScreenPictures& seen, Imag
   return borders;
 }
 
+struct Candidate {
+  double likeness;
+  RigCamera camera;
+};
+
 // In the middle of the screen's lower half.
 bool sees_alike(const RigCamera& a, const RigCamera& b, const ScreenSize& screen) {
   constexpr double alike_mm = 20;
@@ -103,6 +108,19 @@ bool sees_alike(const RigCamera& a, const RigCamera& b, const ScreenSize& screen
   const auto at = a.project(place);
   const auto other = at ? b.screen_point(*at) : std::nullopt;
   return other && std::hypot(other->x_mm - place.x_mm, other->y_mm - place.y_mm) < alike_mm;
+}
+
+// Of those that look at the same place the first one.
+void keep_different(std::vector<Candidate>& candidates, const ScreenSize& screen) {
+  std::vector<Candidate> kept;
+  for (const Candidate& candidate : candidates) {
+    if (kept.size() == tried) break;
+    const bool known = std::any_of(kept.begin(), kept.end(), [&](const Candidate& other) {
+      return sees_alike(candidate.camera, other.camera, screen);
+    });
+    if (!known) kept.push_back(candidate);
+  }
+  candidates = std::move(kept);
 }
 
 }  // namespace
@@ -126,10 +144,6 @@ std::vector<RigCalibration> cameras_from_marks(const EmptyScreenPictures& seen, 
     return RigCalibration{std::move(all), *std::move(solved)};
   };
 
-  struct Candidate {
-    double likeness;
-    RigCamera camera;
-  };
   std::vector<Candidate> candidates;
   for (const ScreenBorder& border : possible_borders(seen, image)) {
     for (const double focal : focal_factors) {
@@ -144,6 +158,7 @@ std::vector<RigCalibration> cameras_from_marks(const EmptyScreenPictures& seen, 
   }
   std::sort(candidates.begin(), candidates.end(),
             [](const Candidate& a, const Candidate& b) { return a.likeness > b.likeness; });
+  if (!seen.border.vertex) keep_different(candidates, seen.screen);
   std::vector<RigCalibration> found;
   const std::size_t enough = seen.border.vertex ? 1 : most_cameras;
   for (std::size_t i = 0; i < std::min(tried, candidates.size()) && found.size() < enough; ++i) {

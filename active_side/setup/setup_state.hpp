@@ -52,7 +52,7 @@ enum class SetupAdvice {
   repeat_dots,          // see `result.repeat`
   not_good_enough,      // see `result.faults`
   good,                 // save it
-  idle,                 // nobody came
+  idle,                 // it has not gone on for five minutes
 };
 
 struct SeenBorder {

@@ -12,8 +12,8 @@
 namespace telehug {
 namespace {
 
-constexpr double largest_change = 10;  // of a field, in grey levels
-constexpr int changed_fields = 3;      // that are more than a flicker
+constexpr double largest_change = 15;  // of a field, in grey levels; exposures that differ by 13 % leave up to 14
+constexpr int changed_fields = 4;      // that are more than a flicker
 // Of the whole picture: more is a lamp that was switched, or another page.
 constexpr double largest_gain = 2;
 constexpr std::size_t most_kept = 8;

@@ -63,7 +63,8 @@ void ContactTracker::collect() {
   hovering_.clear();
   for (const Track& track : tracks_) {
     if (track.contact) states_.push_back(*track.contact);
-    if (!track.contact && track.missed_frames == 0) hovering_.push_back({track.seen, track.filter.touching()});
+    if (!track.contact && track.missed_frames == 0)
+      hovering_.push_back({track.seen, track.filter.touching(), track.in_air_since});
   }
   std::ranges::sort(states_, {}, &ContactState::id);
 }
@@ -71,7 +72,9 @@ void ContactTracker::collect() {
 // A finger whose contact ended may still be there, in the air.
 void ContactTracker::forget_ended() {
   for (Track& track : tracks_) {
-    if (track.contact && track.contact->phase == Phase::up) track.contact.reset();
+    if (!track.contact || track.contact->phase != Phase::up) continue;
+    track.in_air_since = track.contact->frame_time;
+    track.contact.reset();
   }
   const auto lost = [&](const Track& track) {
     const int most = options_.every_finger_touches ? 1 : options_.up_after_missed_frames;
@@ -159,6 +162,7 @@ void ContactTracker::begin(const FingerObservation& finger, Timestamp frame_time
   tracks_.push_back({{options_.camera, options_.filter, known_width_, finger, unseen},
                      ContactSmoothing(options_.smoothing),
                      finger.screen,
+                     frame_time,
                      frame_time,
                      0,
                      0,

@@ -45,6 +45,7 @@ struct TrackerOptions {
 struct HoveringFinger {
   ScreenPoint screen;
   double touching = 0;  // the probability that it touches
+  Timestamp since;      // when it was first seen, or lifted
 };
 using HoveringFingers = boost::container::static_vector<HoveringFinger, max_contacts>;
 
@@ -80,7 +81,8 @@ class ContactTracker {
     ContactSmoothing smoothing;
     ScreenPoint seen;  // as observed
     Timestamp seen_at;
-    double x_mm_s = 0;  // of `seen`
+    Timestamp in_air_since;  // while it has no contact
+    double x_mm_s = 0;       // of `seen`
     double y_mm_s = 0;
     int missed_frames = 0;
     std::optional<ContactState> contact;

@@ -21,6 +21,7 @@ void add_unpause(CLI::App& app, ExitCode& result);
 void add_mute(CLI::App& app, ExitCode& result);
 void add_unmute(CLI::App& app, ExitCode& result);
 void add_strength(CLI::App& app, ExitCode& result);
+void add_quiet(CLI::App& app, ExitCode& result);
 void add_send(CLI::App& app, ExitCode& result);
 void add_face(CLI::App& app, ExitCode& result);
 void add_hug(CLI::App& app, ExitCode& result);

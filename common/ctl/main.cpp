@@ -22,6 +22,7 @@ Examples:
   telehug pause 30                    the wearer wants nothing felt for half an hour
   telehug mute 8 13                   nor ever in these boxes
   telehug strength 50                 and all else half as strongly as the limits allow
+  telehug quiet 20:30-07:00           and nothing at all at night
   telehug send off                    touches on this screen touch nobody
   telehug face next                   the other person in the picture is meant
   telehug hug --seconds 4             felt by the wearer; from the wearer's PC seen and heard by the sender
@@ -49,6 +50,7 @@ ExitCode parse_and_run(int argc, char** argv) {
   telehug::add_mute(app, result);
   telehug::add_unmute(app, result);
   telehug::add_strength(app, result);
+  telehug::add_quiet(app, result);
   telehug::add_send(app, result);
   telehug::add_face(app, result);
   telehug::add_hug(app, result);

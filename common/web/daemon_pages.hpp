@@ -43,9 +43,7 @@ class DaemonPages {
   // See WebServer.
   void tell(const std::string& topic, const nlohmann::json& news);
   [[nodiscard]] bool has_followers() const noexcept { return server_ && server_->has_followers(); }
-  [[nodiscard]] bool has_followers(const std::string& topic) const noexcept {
-    return server_ && server_->has_followers(topic);
-  }
+  [[nodiscard]] bool has_followers(const std::string& topic) const { return server_ && server_->has_followers(topic); }
 
   // For status: "web" with the port and the names of the pages, and a problem if there is one.
   void add_status(nlohmann::json& status) const;

@@ -10,6 +10,7 @@
 #include <optional>
 
 #include "capture/virtual_rig/virtual_rig.hpp"
+#include "demo_pages.hpp"
 #include "demo_record.hpp"
 #include "demo_verdict.hpp"
 #include "demo_view.hpp"
@@ -30,6 +31,7 @@ struct Options {
   double seconds = 12;
   bool plain = false;
   bool keep = false;
+  bool pages = false;
 };
 
 // Measured: 1.5 mm along the finger, 0.3 mm across; the place of a touch that begins or ends between two frames, and a
@@ -112,6 +114,10 @@ ExitCode run(const Options& options) {
              profile->name);
   DemoWorld world(settings);
   if (options.keep) world.keep_folder();
+  if (options.pages) {
+    run_for_pages(world, signals);
+    return world.end() ? ExitCode::ok : ExitCode::internal;
+  }
   DemoRecord record;
   {
     DemoView view(*profile, !options.plain && isatty(STDOUT_FILENO) != 0);
@@ -179,6 +185,7 @@ int main(int argc, char** argv) {
   app.add_option("--profile", options.profile, "The jacket's profile")->required();
   app.add_option("--seconds", options.seconds, "How long")->check(CLI::Range(1.0, 600.0))->capture_default_str();
   app.add_flag("--plain", options.plain, "Lines instead of a live picture, even on a terminal");
+  app.add_flag("--pages", options.pages, "Runs until Ctrl-C, to look at the pages of both sides in a browser");
   app.add_flag("--keep", options.keep, "Keep the logs");
   CLI11_PARSE(app, argc, argv);
   try {

@@ -15,11 +15,13 @@ int minutes_left(const QuietSpan& span, int now_min) {
 
 }  // namespace
 
-std::optional<QuietSpan> quiet_span_at(const QuietHours& hours, int now_min) {
+std::optional<QuietSpan> quiet_span_at(const Consent& consent, int now_min) {
   std::optional<QuietSpan> longest;
-  for (const QuietSpan& span : hours) {
-    const int left = minutes_left(span, now_min);
-    if (left > 0 && (!longest || left > minutes_left(*longest, now_min))) longest = span;
+  for (const QuietHours* hours : {&consent.quiet_hours, &consent.own_quiet_hours}) {
+    for (const QuietSpan& span : *hours) {
+      const int left = minutes_left(span, now_min);
+      if (left > 0 && (!longest || left > minutes_left(*longest, now_min))) longest = span;
+    }
   }
   return longest;
 }
@@ -28,7 +30,7 @@ Permission permission_at(const Consent& consent, std::chrono::sys_seconds now, i
   Permission permission{{}, consent.muted_boxes, consent.muted_actuators, consent.strength};
   if (consent.pause && (!consent.pause->until || now < *consent.pause->until)) {
     permission.refusal = FeltOutcome::paused;
-  } else if (quiet_span_at(consent.quiet_hours, now_min)) {
+  } else if (quiet_span_at(consent, now_min)) {
     permission.refusal = FeltOutcome::quiet_hours;
   }
   return permission;

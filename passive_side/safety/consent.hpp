@@ -23,7 +23,8 @@ struct Pause {
 
 struct Consent {
   std::optional<Pause> pause;
-  QuietHours quiet_hours;
+  QuietHours quiet_hours;      // the configuration's, which the wearer can't take away
+  QuietHours own_quiet_hours;  // the wearer's, beside these
   MutedBoxes muted_boxes;
   MutedActuators muted_actuators;
   double strength = 1;  // above 0, at most 1: of what the limits allow
@@ -42,8 +43,8 @@ struct Permission {
 // `now_min`: local time of day, 0..minutes_of_day - 1. A pause counts before quiet hours.
 [[nodiscard]] Permission permission_at(const Consent& consent, std::chrono::sys_seconds now, int now_min);
 
-// The span of quiet hours that holds this minute and ends last; nothing if none does.
-[[nodiscard]] std::optional<QuietSpan> quiet_span_at(const QuietHours& hours, int now_min);
+// The span of quiet hours of either kind that holds this minute and ends last; nothing if none does.
+[[nodiscard]] std::optional<QuietSpan> quiet_span_at(const Consent& consent, int now_min);
 
 // By the time zone that libc knows ($TZ, /etc/localtime), with its rules for summer time: in the hour that is skipped
 // nothing happens, in the hour that comes twice spans hold twice. tzset() makes it follow a zone that was changed.

@@ -2,6 +2,7 @@
 // The wearer's page: what is felt, what they want, who may touch, how the jacket is.
 import {beginPage, command, follow, make, onPress, showProblems, text, write} from "/shared/page.js";
 import {drawPicture, showMuted, showRunning, writePicture} from "/body_picture.js";
+import {beginQuietHours, showQuietHours} from "/quiet_hours.js";
 import {beginTrials, offerTrials, writeTrial} from "/trial.js";
 
 const part = (id) => document.getElementById(id);
@@ -20,7 +21,7 @@ function pauseNote(consent) {
 function showWishes(consent) {
   write(part("pause"), text(isPaused() ? "pause.end" : "pause.begin"));
   write(part("pause-note"), pauseNote(consent));
-  write(part("quiet"), consent.quiet_hours ? text("quiet.hours", {hours: consent.quiet_hours}) : text("quiet.none"));
+  showQuietHours(consent);
   if (!sliding) slider.value = Math.round(100 * (consent.strength ?? 1));
   showStrength();
   const muted = consent.muted_boxes ?? [];
@@ -126,6 +127,7 @@ function writeAll() {
 await beginPage(writeAll);
 beginOrders();
 beginTrials();
+beginQuietHours(refresh);
 const jacket = await command({command: "jacket", svg: true});
 drawPicture(jacket, refresh);
 offerTrials(jacket);

@@ -21,6 +21,8 @@ telehug_test(test_app_consent KIND integration SUBJECT jacket
   SOURCES integration/app/consent_test.cpp DEPS running_pair)
 telehug_test(test_app_pages KIND integration SUBJECT web
   SOURCES integration/app/pages_test.cpp DEPS running_pair)
+telehug_test(test_app_fingers_on_pages KIND integration SUBJECT web
+  SOURCES integration/app/fingers_on_pages_test.cpp DEPS running_pair)
 telehug_test(test_app_paired KIND integration SUBJECT link
   SOURCES integration/app/paired_test.cpp DEPS running_pair)
 telehug_test(test_app_several KIND integration SUBJECT link
@@ -35,6 +37,9 @@ telehug_test(test_app_record_screen KIND integration SUBJECT face
   SOURCES integration/app/record_screen_test.cpp DEPS running_pair active_screen)
 telehug_test(test_app_chat_on_screen KIND integration SUBJECT face
   SOURCES integration/app/chat_on_screen_test.cpp DEPS running_pair telehug_pictures opencv::imgproc PkgConfig::xcb PkgConfig::xtest)
+telehug_test(test_app_demo KIND integration SUBJECT ops
+  SOURCES integration/app/demo_test.cpp DEPS running_pair)
+add_dependencies(test_app_demo telehug-demo)
 telehug_test(test_app_look KIND integration SUBJECT face
   SOURCES integration/app/look_test.cpp DEPS running_pair)
 telehug_test(test_app_hug KIND integration SUBJECT jacket

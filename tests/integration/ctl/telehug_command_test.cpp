@@ -62,7 +62,7 @@ class TelehugCommand : public testing::Test {
       hug_ = request;
       return {{"side", side_name(side)}};
     });
-    for (const char* order : {"pause", "unpause", "mute", "unmute", "strength"}) {
+    for (const char* order : {"pause", "unpause", "mute", "unmute", "strength", "quiet"}) {
       server->on(order, [this, side](const Json& request) -> Json {
         order_ = request;
         return {{"side", side_name(side)}};
@@ -96,10 +96,29 @@ TEST_F(TelehugCommand, HelpsWithExamples) {
 }
 
 TEST_F(TelehugCommand, RefusesACommandLineItDoesNotUnderstand) {
-  for (const char* wrong :
-       {"", "dance", "status --loud", "status --side left", "watch --count 0", "hug --seconds 11", "hug --seconds 0.1",
-        "hug --strength 0", "hug --strength 1.5", "pause 0", "pause 1441", "pause soon", "mute", "mute 0", "mute 101",
-        "mute --actuator 256", "mute --all", "unmute", "unpause 5"}) {
+  for (const char* wrong : {"",
+                            "dance",
+                            "status --loud",
+                            "status --side left",
+                            "watch --count 0",
+                            "hug --seconds 11",
+                            "hug --seconds 0.1",
+                            "hug --strength 0",
+                            "hug --strength 1.5",
+                            "pause 0",
+                            "pause 1441",
+                            "pause soon",
+                            "mute",
+                            "mute 0",
+                            "mute 101",
+                            "mute --actuator 256",
+                            "quiet",
+                            "quiet 20:30",
+                            "quiet 10:00-10:00",
+                            "quiet \"\"",
+                            "mute --all",
+                            "unmute",
+                            "unpause 5"}) {
     const Outcome outcome = run(wrong);
     EXPECT_EQ(outcome.code, to_int(ExitCode::usage)) << wrong;
     EXPECT_FALSE(outcome.errors.empty()) << wrong;
@@ -218,6 +237,10 @@ TEST_F(TelehugCommand, TellsTheWearersDaemonAloneWhatTheyWant) {
   EXPECT_EQ(run("strength 45").out, "passive: 45 % of what the limits allow\n");
   EXPECT_EQ(order_, Json({{"command", "strength"}, {"strength", 0.45}}));
   EXPECT_EQ(run("strength 101").code, to_int(ExitCode::usage));
+  EXPECT_EQ(run("quiet 20:30-07:00,13:00-14:00").out, "passive: quiet hours: 20:30-07:00,13:00-14:00\n");
+  EXPECT_EQ(order_, Json({{"command", "quiet"}, {"hours", "20:30-07:00,13:00-14:00"}}));
+  EXPECT_EQ(run("quiet none").out, "passive: no quiet hours of the wearer's own\n");
+  EXPECT_EQ(order_, Json({{"command", "quiet"}, {"hours", ""}}));
   EXPECT_EQ(run("unmute --all").code, to_int(ExitCode::ok));
   EXPECT_EQ(order_.value("all", false), true);
 }

@@ -53,6 +53,22 @@ TEST_F(ActivePipelineTest, SendsNoContactThatWasHeldBackUntilItIsLifted) {
   EXPECT_EQ(event->contacts.size(), 1U);
 }
 
+TEST_F(ActivePipelineTest, CountsAFingerOnceThatStaysInTheAirForLong) {
+  ActivePipelineOptions doubtful = options();
+  doubtful.tracker = {.down_above = 1.1};  // nothing touches for sure
+  ActivePipeline hovering(calibration(), detector_of(calibration(), "default", nobody()), doubtful, stream, clock,
+                          metrics);
+  see_for(1400ms, hovering, touching());
+  EXPECT_EQ(counter("fingers_hovered"), 0U);
+  see_for(3s, hovering, touching());
+  EXPECT_EQ(counter("fingers_hovered"), 1U);
+  see_for(1s, hovering, nobody());
+  see_for(2s, hovering, touching());
+  EXPECT_EQ(counter("fingers_hovered"), 2U);
+  see_for(3s, pipeline, touching());
+  EXPECT_EQ(counter("fingers_hovered"), 2U) << "this one touches";
+}
+
 TEST_F(ActivePipelineTest, SendsTwoFingersAtATime) {
   const cv::Mat two = DrawnScene(border, image).finger(613, 55, 57).finger(713, 50, 70).noise(1, 4).picture();
   const TouchEvent* event = see(two);

@@ -132,6 +132,29 @@ describe("The wearer's page", () => {
     await eventually(async () => (await status()).consent.strength === undefined, "all of it");
   });
 
+  test("keeps quiet hours of the wearer's own", async () => {
+    // Around now, so that they hold at once, whatever the time of day.
+    const clock = (shiftMin) => {
+      const time = new Date(Date.now() + shiftMin * 60_000);
+      return `${String(time.getHours()).padStart(2, "0")}:${String(time.getMinutes()).padStart(2, "0")}`;
+    };
+    const [begin, end] = [clock(-5), clock(180)];
+    await page.getByRole("button", {name: "Add quiet hours"}).click();
+    await page.getByLabel("Quiet from").fill(begin);
+    assert.equal((await status()).consent.own_quiet_hours, undefined, "half a span is none");
+    await page.getByLabel("until", {exact: true}).fill(end);
+    await page.getByText(`Quiet hours until ${end}: nothing can be felt.`).waitFor();
+    assert.equal((await status()).consent.own_quiet_hours, `${begin}-${end}`);
+    await dark("the motors fall silent");
+    await browser.assertAccessible(page, "quiet hours");
+    await browser.photograph(page, "body-quiet");
+    await page.reload();
+    await eventually(async () => await page.getByLabel("Quiet from").inputValue() === begin, "they are kept");
+    await page.getByRole("button", {name: "Remove"}).click();
+    await litNow("a motor lights up again");
+    assert.equal((await status()).consent.own_quiet_hours, undefined);
+  });
+
   test("stops everything until it carries on", async () => {
     await page.getByRole("button", {name: "STOP everything"}).click();
     await page.getByText("Everything is stopped").waitFor();

@@ -104,7 +104,7 @@ describe("The parent's page", () => {
     assert.deepEqual(misses, ["near.outside", "near.no_face", undefined]);
     const {counters} = await status();
     for (const name of ["touches_outside_grid", "touches_without_face", "touches_with_old_map", "touches_withheld",
-                        "fingers_off_screen"])
+                        "fingers_off_screen", "fingers_hovered"])
       assert.ok(name in counters, `the status counts ${name}`);
   });
 

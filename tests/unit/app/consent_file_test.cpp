@@ -29,6 +29,7 @@ Consent something() {
   consent.muted_boxes.set(8).set(100);
   consent.muted_actuators.set(1).set(255);
   consent.strength = 0.35;
+  consent.own_quiet_hours = {{20 * 60 + 30, 7 * 60}, {13 * 60, 14 * 60}};
   return consent;
 }
 
@@ -65,7 +66,22 @@ TEST_F(ConsentFile, is_damaged_by_a_strength_that_is_none) {
   }
 }
 
-TEST_F(ConsentFile, keeps_no_quiet_hours) {
+TEST_F(ConsentFile, of_a_version_that_knew_no_own_quiet_hours_has_none) {
+  const auto old = parse_consent(R"({"format":1,"paused":true,"muted_boxes":[],"muted_actuators":[],"strength":0.5})");
+  ASSERT_TRUE(old);
+  EXPECT_TRUE(old->own_quiet_hours.empty());
+  EXPECT_EQ(old->strength, 0.5);
+}
+
+TEST_F(ConsentFile, is_damaged_by_quiet_hours_that_are_none) {
+  for (const char* hours : {"20", "\"20:30\"", "\"20:30-20:30\"", "null", "[]", "\"20:30-07:00,\""}) {
+    const std::string text =
+        std::string(R"({"format":1,"paused":false,"muted_boxes":[],"muted_actuators":[],"quiet_hours":)") + hours + "}";
+    EXPECT_FALSE(parse_consent(text)) << hours;
+  }
+}
+
+TEST_F(ConsentFile, keeps_no_quiet_hours_of_the_configuration) {
   Consent consent;
   consent.quiet_hours = {{0, 60}};
   ASSERT_TRUE(keep_consent(file, consent));

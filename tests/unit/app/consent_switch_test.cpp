@@ -64,6 +64,30 @@ TEST_F(TheConsentSwitch, takes_no_strength_beyond_the_limits_or_none_at_all) {
   EXPECT_FALSE(std::filesystem::exists(file));
 }
 
+TEST_F(TheConsentSwitch, adds_the_wearers_quiet_hours_to_those_of_the_configuration) {
+  ConsentSwitch quiet(file, {{11 * 60, 12 * 60 + 30}}, profile);
+  EXPECT_EQ(quiet.quiet({{"hours", "12:15-13:00"}}), Json({{"side", "passive"}, {"own_quiet_hours", "12:15-13:00"}}));
+  EXPECT_EQ(refusal(quiet, noon), FeltOutcome::quiet_hours);
+  EXPECT_EQ(refusal(quiet, noon + 59min), FeltOutcome::quiet_hours);
+  EXPECT_EQ(refusal(quiet, noon + 60min), std::nullopt);
+  EXPECT_EQ(refusal_text(quiet.consent(), noon + 20min), "quiet hours until 13:00") << "the one that ends last";
+  EXPECT_EQ(consent_json(quiet.consent(), noon).at("own_quiet_hours"), "12:15-13:00");
+  EXPECT_EQ(consent_json(quiet.consent(), noon).at("quiet_hours"), "11:00-12:30");
+  EXPECT_EQ(ConsentSwitch(file, {}, profile).consent().own_quiet_hours, quiet.consent().own_quiet_hours);
+  EXPECT_EQ(quiet.quiet({{"hours", ""}}).at("own_quiet_hours"), "");
+  EXPECT_EQ(refusal(quiet, noon), FeltOutcome::quiet_hours) << "the configuration's are not the wearer's to take away";
+  EXPECT_EQ(refusal(quiet, noon + 40min), std::nullopt);
+}
+
+TEST_F(TheConsentSwitch, takes_no_quiet_hours_that_are_none) {
+  for (const Json& hours :
+       {Json("20:30"), Json("25:00-26:00"), Json("10:00-10:00"), Json(20), Json(nullptr), Json::array()})
+    EXPECT_TRUE(consent.quiet({{"hours", hours}}).contains("error")) << hours;
+  EXPECT_TRUE(consent.quiet(Json::object()).contains("error"));
+  EXPECT_EQ(consent.consent(), Consent{});
+  EXPECT_FALSE(std::filesystem::exists(file));
+}
+
 TEST_F(TheConsentSwitch, tells_until_when_nothing_is_felt_if_it_is_known) {
   consent.pause({{"minutes", 90}}, noon);
   EXPECT_EQ(consent_json(consent.consent(), noon).at("until"), "13:30");

@@ -24,7 +24,8 @@ TEST(Consent, permits_everything_at_first) {
 }
 
 TEST(Consent, pauses_until_further_notice) {
-  const Consent consent{.pause = Pause{}, .quiet_hours = {}, .muted_boxes = {}, .muted_actuators = {}};
+  const Consent consent{
+      .pause = Pause{}, .quiet_hours = {}, .own_quiet_hours = {}, .muted_boxes = {}, .muted_actuators = {}};
   EXPECT_EQ(permission_at(consent, noon, at(12)).refusal, FeltOutcome::paused);
   EXPECT_EQ(permission_at(consent, noon + 100000h, at(12)).refusal, FeltOutcome::paused);
 }
@@ -57,11 +58,13 @@ TEST(Consent, is_quiet_across_midnight) {
 }
 
 TEST(Consent, is_quiet_in_each_of_several_spans_and_knows_which_ends_last) {
-  const QuietHours hours{{at(20), at(22)}, {at(21), at(6)}, {at(13), at(14)}};
-  EXPECT_EQ(quiet_span_at(hours, at(13, 30)), hours[2]);
-  EXPECT_EQ(quiet_span_at(hours, at(20, 30)), hours[0]);
-  EXPECT_EQ(quiet_span_at(hours, at(21, 30)), hours[1]);
-  EXPECT_EQ(quiet_span_at(hours, at(12)), std::nullopt);
+  Consent consent;
+  consent.quiet_hours = {{at(20), at(22)}, {at(13), at(14)}};
+  consent.own_quiet_hours = {{at(21), at(6)}};
+  EXPECT_EQ(quiet_span_at(consent, at(13, 30)), consent.quiet_hours[1]);
+  EXPECT_EQ(quiet_span_at(consent, at(20, 30)), consent.quiet_hours[0]);
+  EXPECT_EQ(quiet_span_at(consent, at(21, 30)), consent.own_quiet_hours[0]);
+  EXPECT_EQ(quiet_span_at(consent, at(12)), std::nullopt);
 }
 
 TEST(Consent, tells_of_a_pause_before_quiet_hours) {

@@ -207,6 +207,25 @@ TEST(FingerTracks, ReportFingersThatHover) {
   ASSERT_EQ(fingers.hovering().size(), 1U);
   EXPECT_NEAR(fingers.hovering()[0].screen.y_mm, seen_at(150, 150, 15).screen.y_mm, 1e-9);
   EXPECT_LT(fingers.hovering()[0].touching, 0.1);
+  EXPECT_EQ(fingers.hovering()[0].since, simulated_time(0));
+}
+
+TEST(FingerTracks, ReportSinceWhenALiftedFingerHovers) {
+  ContactTracker fingers = tracker();
+  int lifted = 0;
+  play(fingers, -3, 25, [&](int i) {
+    if (i < 10) {
+      const auto finger = lands(i, 150, 150);
+      return Fingers{finger ? FingerObservations{*finger} : FingerObservations{}, Scene::steady};
+    }
+    for (const HoveringFinger& finger : fingers.hovering())
+      if (lifted == 0 && finger.since > simulated_time(8 * frame_s)) lifted = i - 1;
+    return Fingers{{seen_at(150, 150, std::min(20.0, 5.0 * (i - 9)), MirrorState::hovering)}, Scene::steady};
+  });
+  ASSERT_EQ(fingers.hovering().size(), 1U);
+  EXPECT_GE(lifted, 10);
+  EXPECT_LE(fingers.hovering()[0].since, simulated_time(lifted * frame_s));
+  EXPECT_GE(fingers.hovering()[0].since, simulated_time(10 * frame_s)) << "not since it was first seen";
 }
 
 TEST(FingerTracks, KeepTheirPromisesWhateverIsSeen) {

@@ -47,25 +47,34 @@ export async function command(request) {
   return answer;
 }
 
-// Follows topics; handlers[topic] gets each newest value.
+// Follows topics; handlers[topic] gets each newest value. Returns what ends it.
 export function follow(handlers) {
-  const source = new EventSource(`/live?topics=${Object.keys(handlers).join(",")}`);
-  for (const [topic, handle] of Object.entries(handlers)) {
-    source.addEventListener(topic, (event) => {
-      complain("");
-      handle(JSON.parse(event.data));
+  let source = null;
+  let again = 0;
+  const begin = () => {
+    source = new EventSource(`/live?topics=${Object.keys(handlers).join(",")}`);
+    for (const [topic, handle] of Object.entries(handlers)) {
+      source.addEventListener(topic, (event) => {
+        complain("");
+        handle(JSON.parse(event.data));
+      });
+    }
+    source.addEventListener("error", () => {
+      complain(text("lost.connection"));
+      // The browser tries again by itself, but not after an answer that was a refusal: then there is no session any
+      // more, or for the moment no place.
+      if (source.readyState !== EventSource.CLOSED) return;
+      again = setTimeout(() => {
+        begin();
+        command({command: "status"}).catch(() => {});
+      }, 3000);
     });
-  }
-  source.addEventListener("error", () => {
-    complain(text("lost.connection"));
-    // The browser tries again by itself, but not after an answer that was a refusal: then there is no session any more,
-    // or for the moment no place.
-    if (source.readyState !== EventSource.CLOSED) return;
-    setTimeout(() => {
-      follow(handlers);
-      command({command: "status"}).catch(() => {});
-    }, 3000);
-  });
+  };
+  begin();
+  return () => {
+    clearTimeout(again);
+    source.close();
+  };
 }
 
 async function loadTexts(language) {

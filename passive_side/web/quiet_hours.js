@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: Apache-2.0
+// The wearer's own quiet hours: a row of two times of day each.
+import {command, make, onPress, text, write} from "/shared/page.js";
+
+const list = document.getElementById("quiet-rows");
+const add = document.getElementById("quiet-add");
+const MOST = 8;  // as the daemon takes
+
+// "20:30-07:00,13:00-14:00" as [["20:30", "07:00"], ...], and back. Times that end at midnight end at 00:00 here.
+export const spansOf = (hours) => (hours ? hours.split(",").map((span) => span.split("-")) : []);
+export const hoursOf = (spans) => spans.map(([begin, end]) => `${begin}-${end}`).join(",");
+
+const rows = () => [...list.querySelectorAll("li")];
+const spanOf = (row) => [...row.querySelectorAll("input")].map((input) => input.value);
+// What is being typed is no span yet.
+const isWhole = ([begin, end]) => begin !== "" && end !== "" && begin !== end;
+
+let told = () => {};
+
+async function tell() {
+  const spans = rows().map(spanOf);
+  add.disabled = spans.length >= MOST;
+  if (!spans.every(isWhole)) return;
+  const hours = hoursOf(spans);
+  if (hours === list.dataset.kept) return;
+  try {
+    await command({command: "quiet", hours});
+    list.dataset.kept = hours;
+    write(document.getElementById("refusal"), "");
+    await told();
+  } catch (problem) {
+    write(document.getElementById("refusal"), problem.message);
+  }
+}
+
+function timeInput(label, value) {
+  const input = make("input", {type: "time", value, ariaLabel: text(label)});
+  input.addEventListener("change", tell);
+  return input;
+}
+
+function row([begin, end]) {
+  const remove = make("button", {textContent: text("quiet.remove")});
+  const item = make("li", {className: "span"}, timeInput("quiet.from", begin), "–", timeInput("quiet.to", end), remove);
+  onPress(remove, async () => {
+    item.remove();
+    add.focus();
+    await tell();
+  });
+  return item;
+}
+
+// `consent`: of the status. What the person is typing is left alone.
+export function showQuietHours(consent) {
+  const fixed = consent.quiet_hours;
+  write(document.getElementById("quiet-fixed"), fixed ? text("quiet.fixed", {hours: fixed}) : "");
+  const hours = consent.own_quiet_hours ?? "";
+  const shown = JSON.stringify([document.documentElement.lang, hours]);
+  if (list.dataset.shown === shown || list.contains(document.activeElement)) return;
+  list.dataset.shown = shown;
+  list.dataset.kept = hours;
+  list.replaceChildren(...spansOf(hours).map(row));
+  add.disabled = list.children.length >= MOST;
+}
+
+// `refresh`: called when the daemon has taken them.
+export function beginQuietHours(refresh) {
+  told = refresh;
+  onPress(add, async () => {
+    const item = row(["", ""]);
+    list.append(item);
+    add.disabled = list.children.length >= MOST;
+    item.querySelector("input").focus();
+  });
+}
