@@ -298,6 +298,8 @@ void ActiveDaemon::tell_state(Timestamp now) {
   own_state_.detector = rig_ ? rig_->detector : "";
   own_state_.model = rig_ ? rig_->model : "";
   own_state_.screen = rig_ ? std::optional(rig_->pipeline.screen()) : std::nullopt;
+  own_state_.calibrated = rig_ ? rig_->calibrated : "";
+  own_state_.reach = rig_ ? rig_->reach : nullptr;
   own_state_.knows_background = !rig_ || rig_->pipeline.knows_background();
   for (const auto& wearer : wearers_.adopted())
     wearer->connection.tell_state(now);

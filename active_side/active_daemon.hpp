@@ -58,9 +58,11 @@ struct TouchThreadState {
   std::string camera_setup;
   FrameVerdict picture = FrameVerdict::good;
   std::shared_ptr<FaceWorker> face;
-  std::string detector;              // in use; empty: there is no calibration
-  std::string model;                 // likewise
-  std::optional<ScreenSize> screen;  // likewise
+  std::string detector;                                   // in use; empty: there is no calibration
+  std::string model;                                      // likewise
+  std::string calibrated;                                 // when: ISO 8601, UTC; likewise
+  std::optional<ScreenSize> screen;                       // likewise
+  std::shared_ptr<const std::vector<ScreenPoint>> reach;  // on it; null: not known
   bool knows_background = true;
   NobodyTouched nobody;
   std::uint64_t withheld = 0;  // touches that did not go out because of the sending switch

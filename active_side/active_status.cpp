@@ -4,6 +4,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "active_daemon.hpp"
 #include "body_map/vitruvian_grid.hpp"
@@ -69,6 +70,36 @@ Json picture_problem(FrameVerdict verdict) {
                           "turn it back as it was, or calibrate again");
   }
   return {};
+}
+
+Json touch_screen_json(const TouchThreadState& state) {
+  Json screen = {{"width_mm", state.screen->width_mm},
+                 {"height_mm", state.screen->height_mm},
+                 {"width_px", state.screen->width_px},
+                 {"height_px", state.screen->height_px},
+                 {"calibrated", state.calibrated}};
+  if (!state.reach) return screen;
+  // To a tenth, since it is told four times a second.
+  Json outline = Json::array();
+  for (const ScreenPoint& corner : *state.reach)
+    outline.push_back({std::round(corner.x_mm * 10) / 10, std::round(corner.y_mm * 10) / 10});
+  screen["reach_mm"] = std::move(outline);
+  return screen;
+}
+
+// What keeps fingers from being seen.
+Json camera_problems(const TouchThreadState& state) {
+  Json list = Json::array();
+  if (state.camera_lost) list.push_back(problem_json(state.camera_problem, "plug the camera in, or correct [camera]"));
+  if (state.camera_drift == DriftState::moved || state.camera_drift == DriftState::unseen) {
+    list.push_back(problem_json(drift_text(state.camera_drift), "run `telehug-active calibrate`"));
+  }
+  if (state.camera_open && !state.knows_background) {
+    list.push_back(problem_json("telehug learns how bezel and desk look with nobody there; no touch begins meanwhile",
+                                "keep your hands away from the screen for a second"));
+  }
+  if (const Json picture = picture_problem(state.picture); !picture.is_null()) list.push_back(picture);
+  return list;
 }
 
 Json wearer_problem(const ConnectionStatus& wearer, bool stopped_here) {
@@ -168,15 +199,8 @@ Json ActiveDaemon::problems(const TouchThreadState& state, const FaceState& face
   for (const ConnectionStatus& wearer : connections)
     if (const Json problem = wearer_problem(wearer, stop_.stopped()); !problem.is_null()) list.push_back(problem);
   add_absences(list, Side::active, connections);
-  if (state.camera_lost) list.push_back(problem_json(state.camera_problem, "plug the camera in, or correct [camera]"));
-  if (state.camera_drift == DriftState::moved || state.camera_drift == DriftState::unseen) {
-    list.push_back(problem_json(drift_text(state.camera_drift), "run `telehug-active calibrate`"));
-  }
-  if (state.camera_open && !state.knows_background) {
-    list.push_back(problem_json("telehug learns how bezel and desk look with nobody there; no touch begins meanwhile",
-                                "keep your hands away from the screen for a second"));
-  }
-  if (const Json picture = picture_problem(state.picture); !picture.is_null()) list.push_back(picture);
+  for (const Json& problem : camera_problems(state))
+    list.push_back(problem);
   if (feedback_) {
     if (const std::string problem = feedback_->problem(); !problem.empty())
       list.push_back(problem_json("the actuator at the toucher's finger: " + problem,
@@ -240,39 +264,37 @@ Json ActiveDaemon::status() const {
     const std::lock_guard lock(words_mutex_);
     camera_name = camera_name_;
   }
-  Json answer = {{"side", "active"},
-                 {"version", version},
-                 {"session", session_},
-                 {"uptime_s", std::chrono::duration<double>(clock_.now() - started_).count()},
-                 {"state", stopped  ? "stopped"
-                           : fault  ? "fault"
-                           : !alive ? "waiting"
-                                    : "ok"},
-                 {"problems", problems(state, face, connected)},
-                 {"camera", {{"name", camera_name}, {"open", state.camera_open}, {"why", open_why}}},
-                 {"screen", {{"name", face.screen}, {"open", face.open}}},
-                 {"face",
-                  {{"found", face.map.version != 0},
-                   {"held", face.map.version != 0 && !face.problem.empty()},
-                   {"map_version", face.map.version},
-                   {"finder", face.finder},
-                   {"others", face.others},
-                   {"pinned", face.pinned}}},
-                 {"sending", sending_json(state)},
-                 {"detector", {{"name", state.detector}, {"model", state.model}}},
-                 {"counters", counters},
-                 {"latency_ms", metrics_.latencies_json()}};
+  Json answer = {
+      {"side", "active"},
+      {"version", version},
+      {"session", session_},
+      {"uptime_s", std::chrono::duration<double>(clock_.now() - started_).count()},
+      {"state", stopped  ? "stopped"
+                : fault  ? "fault"
+                : !alive ? "waiting"
+                         : "ok"},
+      {"problems", problems(state, face, connected)},
+      {"camera",
+       {{"name", camera_name}, {"open", state.camera_open}, {"why", open_why}, {"problems", camera_problems(state)}}},
+      {"screen", {{"name", face.screen}, {"open", face.open}}},
+      {"face",
+       {{"found", face.map.version != 0},
+        {"held", face.map.version != 0 && !face.problem.empty()},
+        {"map_version", face.map.version},
+        {"finder", face.finder},
+        {"others", face.others},
+        {"pinned", face.pinned}}},
+      {"sending", sending_json(state)},
+      {"detector", {{"name", state.detector}, {"model", state.model}}},
+      {"counters", counters},
+      {"latency_ms", metrics_.latencies_json()}};
   add_connections(answer, connected);
   if (Json hug = last_hug_json(); !hug.is_null()) answer["last_hug"] = std::move(hug);
   if (!state.camera_setup.empty()) answer["camera"]["setup"] = state.camera_setup;
   if (face.map.version != 0 && face.scale) answer["face"]["places_px"] = body_map_json(face.map, *face.scale);
   for (const LocalTouchState& output : local_touch_.states())
     answer["local_touch"][output.name] = output.open ? "on" : output.problem.empty() ? "waits for the camera" : "fails";
-  if (state.screen)
-    answer["touch_screen"] = {{"width_mm", state.screen->width_mm},
-                              {"height_mm", state.screen->height_mm},
-                              {"width_px", state.screen->width_px},
-                              {"height_px", state.screen->height_px}};
+  if (state.screen) answer["touch_screen"] = touch_screen_json(state);
   if (state.last_touch) answer["last_touch"] = touch_json(*state.last_touch);
   {
     const std::lock_guard lock(words_mutex_);

@@ -52,6 +52,14 @@ TEST_F(APageUsedWithTheFingers, IsToldOfThemThoughNobodyIsConnected) {
     EXPECT_GT(screen.at("height_mm"), 100);
     EXPECT_GT(screen.at("width_px"), 100);
     EXPECT_GT(screen.at("height_px"), 100);
+    EXPECT_FALSE(screen.at("calibrated").get<std::string>().empty());
+    EXPECT_GE(screen.at("reach_mm").size(), 8U) << "where the camera sees touches on it";
+    for (const auto& corner : screen.at("reach_mm")) {
+      EXPECT_GE(corner.at(0), 0);
+      EXPECT_LE(corner.at(0), screen.at("width_mm"));
+      EXPECT_LE(corner.at(1), screen.at("height_mm"));
+    }
+    EXPECT_EQ(pair.status(Side::active).at("camera").at("problems"), nlohmann::json::array());
   }
   EXPECT_TRUE(eventually([this] { return !pair.camera_open(); })) << "and nobody looks when it is left";
 }

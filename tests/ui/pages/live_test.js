@@ -54,6 +54,7 @@ describe("The parent's page", () => {
     await first.getByText("✓ This computer is known to another one.").waitFor();
     assert.equal(new URL(first.url()).pathname, "/", "it leads on only once");
     assert.equal(await first.locator("#picture-part").isVisible(), false);
+    assert.equal(await first.getByRole("link", {name: "Draw"}).isVisible(), false, "fingers draw nothing yet");
     await browser.assertAccessible(first, "the first start");
     await browser.photograph(first, "live-first-start");
     assert.deepEqual(first.wrong, []);

@@ -45,20 +45,48 @@ test("a finger that rests, and a place that is none, add nothing", () => {
   assert.equal(drawing.strokes[0].points.length, 1);
 });
 
+// Hands that write down what they are told, with the x of places.
+function noting(did) {
+  return {down: (id, place) => did.push(`down ${id} ${place.x_mm}`), move: (id, place) => did.push(`move ${id} ${place.x_mm}`),
+          up: (id) => did.push(`up ${id}`)};
+}
+
+const frame = (sequence, ...contacts) => ({sequence, contacts: contacts.map(([id, phase, x_mm]) => ({id, phase, x_mm, y_mm: 0}))});
+
 test("frames that are told again count once, gaps are counted, the lost begin where they are seen", () => {
   const did = [];
-  const frames = new TouchFrames({down: (id, place) => did.push(`down ${id} ${place.x_mm}`),
-                                  move: (id, place) => did.push(`move ${id} ${place.x_mm}`), up: (id) => did.push(`up ${id}`)});
-  const frame = (sequence, ...contacts) => ({sequence, contacts: contacts.map(([id, phase, x_mm]) => ({id, phase, x_mm, y_mm: 0}))});
+  const frames = new TouchFrames(noting(did));
   frames.take({frames: [frame(1, [7, "down", 1]), frame(2)]});
   assert.deepEqual(did, [], "what was over before is not drawn");
   frames.take({frames: [frame(2), frame(3, [8, "down", 1])]});
   frames.take({frames: [frame(3, [8, "down", 1]), frame(4, [8, "move", 2])]});
-  frames.take({frames: [frame(6, [8, "up", 3], [9, "move", 5])]});
-  assert.deepEqual(did, ["down 8 1", "move 8 2", "up 8", "down 9 5"]);
+  frames.take({frames: [frame(6, [8, "up", 3], [9, "move", 5]), frame(7, [9, "move", 6])]});
+  assert.deepEqual(did, ["down 8 1", "move 8 2", "up 8", "down 9 5", "move 9 6"]);
   assert.equal(frames.missed, 1);
   frames.take({frames: [frame(1)]});
   assert.equal(did.at(-1), "up 9", "a daemon that began anew has lifted everything");
+});
+
+test("a finger that one picture alone shows on the screen has passed over it, and one that jumps has just landed", () => {
+  const did = [];
+  const frames = new TouchFrames(noting(did));
+  frames.take({frames: [frame(1)]});
+  frames.take({frames: [frame(2, [1, "down", 5]), frame(3, [1, "up", 5], [2, "down", 30]), frame(4, [2, "move", 50]),
+                        frame(5, [2, "up", 50])]});
+  assert.deepEqual(did, ["down 2 50", "up 2"]);
+});
+
+test("fingers are lifted when nothing more is wanted, and what comes then begins anew", () => {
+  const did = [];
+  const frames = new TouchFrames(noting(did));
+  frames.take({frames: [frame(1)]});
+  frames.take({frames: [frame(2, [1, "down", 5]), frame(3, [1, "move", 5])]});
+  frames.lift();
+  assert.deepEqual(did.splice(0), ["down 1 5", "move 1 5", "up 1"]);
+  frames.take({frames: [frame(60, [1, "move", 8])]});
+  frames.take({frames: [frame(61, [1, "move", 9])]});
+  assert.deepEqual(did, ["down 1 8", "move 1 9"]);
+  assert.equal(frames.missed, 0);
 });
 
 test("a path is smooth, ends at the newest point, and one point is a dot", () => {

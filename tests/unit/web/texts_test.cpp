@@ -58,7 +58,7 @@ std::string sources_in(const std::filesystem::path& folder) {
   std::string all;
   // Pages of both sides lie beside the folder of what pages share.
   if (folder == shared) all = sources_in(folder.parent_path());
-  for (const auto& entry : std::filesystem::directory_iterator(folder))
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder))
     if (entry.path().extension() == ".html" || entry.path().extension() == ".js") all += content_of(entry.path());
   return all;
 }
