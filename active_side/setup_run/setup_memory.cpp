@@ -34,6 +34,13 @@ double tenth(double mm) {
   return std::round(mm * 10) / 10;
 }
 
+// With its quotation marks.
+std::string in_toml(const std::string& text) {
+  std::ostringstream written;
+  written << toml::value<std::string>(text);
+  return written.str();
+}
+
 Status write_whole(const fs::path& path, const std::string& text) {
   std::error_code problem;
   fs::create_directories(path.parent_path(), problem);
@@ -71,17 +78,14 @@ Status check_that_it_counts(const SetupChoice& choice, const ConfigSources& sour
 
 std::string setup_fragment(const SetupChoice& choice) {
   const CameraKeys camera = keys_of(choice.camera);
-  toml::table camera_table{{"source", camera.source}, {"device", camera.device}};
-  if (choice.tuned) camera_table.insert("preset", "auto");
-  toml::table rig{{"screen_width_mm", tenth(choice.screen.width_mm)},
-                  {"screen_height_mm", tenth(choice.screen.height_mm)},
-                  {"screen_width_px", choice.screen.width_px},
-                  {"screen_height_px", choice.screen.height_px}};
-  toml::table all{{"camera", camera_table}, {"rig", rig}};
-  if (!choice.monitor.empty()) all.insert("body_map", toml::table{{"monitor", choice.monitor}});
-  std::ostringstream text;
-  text << "# Written by the set-up page, which writes it anew each time.\n" << all << '\n';
-  return text.str();
+  const ScreenSize& screen = choice.screen;
+  return fmt::format(
+      "# Written by the set-up page, which writes it anew each time.\n"
+      "[camera]\nsource = {}\ndevice = {}\n{}"
+      "[rig]\nscreen_width_mm = {:.1f}\nscreen_height_mm = {:.1f}\nscreen_width_px = {}\nscreen_height_px = {}\n{}",
+      in_toml(camera.source), in_toml(camera.device), choice.tuned ? "preset = \"auto\"\n" : "", screen.width_mm,
+      screen.height_mm, screen.width_px, screen.height_px,
+      choice.monitor.empty() ? "" : fmt::format("[body_map]\nmonitor = {}\n", in_toml(choice.monitor)));
 }
 
 Result<fs::path> remember_setup(const SetupChoice& choice, const ConfigSources& sources) {

@@ -21,7 +21,8 @@ let shownResult = "";
 const order = (what, more = {}) => command({command: "setup", order: what, ...more});
 const runs = () => news.stage === "running";
 const step = () => (runs() ? news.step : "");
-const showsPages = () => runs() && news.show.page !== "none";
+const pagesIn = (some) => some.stage === "running" && some.show.page !== "none";
+const showsPages = () => pagesIn(news);
 
 function offset([x, y]) {
   const mm = (value) => Math.abs(value).toFixed(0);
@@ -132,7 +133,7 @@ function show() {
   if (isWhole()) {
     const refusal = runs() && news.run.refusal ? `${news.run.refusal} ` : "";
     const pages = runs() ? news : {show: {page: "none", dots: [], width_mm: 1, height_mm: 1, dot_mm: 1}, can: {}, progress: 0};
-    showWhole(pages, {title: showsPages() ? wholeTitle() : text("setup.waiting"),
+    showWhole(pages, {title: showsPages() ? wholeTitle() : "",
                       advice: showsPages() ? refusal + advice() : refusal});
   } else {
     placePreview(now === "camera" && runs() ? part("camera-picture") : null);
@@ -151,8 +152,9 @@ function hear(newest) {
   news = newest;
   sound(before);
   if (runs() && news.step === "camera" && before.step !== "camera") chooses = "camera";
-  const over = !showsPages() && step() !== "camera";
-  if (over && isWhole()) leaveWhole();
+  if (isWhole() && ((pagesIn(before) && !showsPages()) || !runs())) leaveWhole();
+  const refusal = runs() ? news.run.refusal : "";
+  if (refusal !== "" && refusal !== before.run?.refusal) write(part("refusal"), refusal);
   show();
 }
 
@@ -258,7 +260,8 @@ function writeAll() {
 
 async function linkFurther() {
   const {web} = await command({command: "status"});
-  part("to-accuracy").hidden = !web.pages.includes("accuracy.html");
+  const link = part("to-accuracy");
+  link.hidden = !web.pages.includes(link.getAttribute("href").slice(1));
 }
 
 await beginPage(writeAll);

@@ -16,7 +16,10 @@ function shape(tag, attributes, ...children) {
   return made;
 }
 
-const signed = (mm) => `${mm < 0 ? "−" : "+"}${Math.abs(mm).toFixed(1)} mm`;
+const signed = (mm) => {
+  const rounded = Math.abs(mm).toFixed(1);
+  return `${rounded === "0.0" ? "" : mm < 0 ? "−" : "+"}${rounded} mm`;
+};
 const colourOf = (mm) => STEPS.find(([most]) => mm <= most)[1];
 
 function stateOf(dot) {

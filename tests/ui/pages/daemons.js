@@ -46,13 +46,15 @@ export class Daemons {
     return path.join(this.folder, `${side}.sock`);
   }
 
-  start(side, settings, more = []) {
+  // `config`: a file; none: as if this user had the files in the folder `telehug` beside the sockets, and no X server.
+  start(side, settings, more = [], config = "/dev/null") {
     const all = [...this.dds, `control.socket=${this.socket(side)}`,
                  `peer.pairs_folder=${path.join(this.folder, `pairs-${side}`)}`, ...settings];
     const log = fs.openSync(path.join(this.folder, `${side}.log`), "a");
     const child = spawn(path.join(this.bin, `telehug-${side}`),
-                        ["run", "--config", "/dev/null", ...all.flatMap((setting) => ["--set", setting]), ...more],
-                        {stdio: ["ignore", log, log]});
+                        ["run", ...(config ? ["--config", config] : []), ...all.flatMap((setting) => ["--set", setting]), ...more],
+                        {stdio: ["ignore", log, log],
+                         env: config ? process.env : {...process.env, DISPLAY: "", XDG_CONFIG_HOME: this.folder}});
     this.children.push(child);
     return child;
   }
@@ -94,6 +96,13 @@ export class Daemons {
   async startBareActive() {
     const child = this.start("active", [`rig.calibration_file=${path.join(this.folder, "none.toml")}`],
                              ["--source", "virtual"]);
+    await eventually(() => this.status("active"), "the daemon that has no calibration");
+    return child;
+  }
+
+  // The same, on the rig that `source` names, with files of configuration as a user has them.
+  async startUnsetActive(source) {
+    const child = this.start("active", [`rig.calibration_file=${path.join(this.folder, "rig.toml")}`], ["--source", source], null);
     await eventually(() => this.status("active"), "the daemon that has no calibration");
     return child;
   }
