@@ -223,6 +223,13 @@ describe("The page to draw on", () => {
     await eventually(async () => !(await status()).sending.on, "touches are kept");
   });
 
+  test("says what keeps the fingers from working", async () => {
+    await daemons.telehug("stop", "--socket", daemons.socket(active));
+    await page.getByText("Everything is stopped, fingers too.").waitFor();
+    await daemons.telehug("resume", "--socket", daemons.socket(active));
+    await page.getByText("Your fingers work here, and touch nobody.").waitFor();
+  });
+
   test("has nothing serious for axe-core, weighs little and asks nobody else", async () => {
     await lookAt("draw");
     browser.assertLight(page);
@@ -237,7 +244,7 @@ describe("The page to draw on", () => {
     await rig.show(page);
     // As who plays does: sees where one is and how fast it rises, and puts a finger where it will be.
     const balloons = () => page.evaluate(async () => {
-      const {palettes} = await import("/palette.js");
+      const {palettes} = await import("/drawing/palette.js");
       const paper = document.getElementById("paper");
       const {width, height} = paper;
       const copy = new OffscreenCanvas(width, height).getContext("2d", {willReadFrequently: true});
