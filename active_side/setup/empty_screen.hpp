@@ -48,14 +48,15 @@ class EmptyScreenSteps {
  private:
   void find_border(const cv::Mat& bgr, SetupState& state);
   void tell_border(SetupState& state) const;
-  [[nodiscard]] double screen_light(const cv::Mat& bgr) const;
+  void find_cameras();
+  [[nodiscard]] bool sees_black(const cv::Mat& bgr) const;
 
   EmptyScreen seen_;
   bool may_be_upside_down_;
   StillPicture still_;
   int looks_ = 0;
   bool border_found_ = false;  // any line
-  double bright_light_ = 0;    // of the screen in the picture, in grey levels
+  cv::Mat white_fields_;       // turned: the picture with the white page in fields
   int tries_ = 0;              // of finding marks
   int backgrounds_ = 0;        // that were taken
 };

@@ -79,15 +79,23 @@ RigObservations observations(const EmptyScreenPictures& seen, std::vector<PointO
   return all;
 }
 
+constexpr std::array slopes{0.0, -0.05, 0.05};  // of an edge that was not seen
+
 // Where the middle of the screen's bottom edge is seen: at the vertex, else anywhere, 15 mm apart.
 std::vector<ScreenBorder> possible_borders(const EmptyScreenPictures& seen, ImageSize image) {
-  if (seen.border.vertex) return {seen.border};
+  if (seen.border.vertex && seen.border.length_px > 0) return {seen.border};
+  if (const auto& vertex = seen.border.vertex) {
+    std::vector<ScreenBorder> borders;
+    for (const double slope : slopes)
+      borders.push_back({{vertex->v_px - slope * vertex->u_px, slope}, 0, vertex});
+    return borders;
+  }
   constexpr double usual_px_per_mm = 3.3;  // in pictures of 1280 columns
   const double step_px = 15 * usual_px_per_mm * image.width_px / 1280;
   std::vector<ScreenBorder> borders;
   for (int column = -3; column <= 3; ++column) {
     for (double row = 0.3; row < 0.9; row += 0.03) {
-      for (const double slope : {-0.05, 0.0, 0.05}) {
+      for (const double slope : slopes) {
         const ImagePoint vertex{0.5 * image.width_px + column * step_px, row * image.height_px};
         borders.push_back({{vertex.v_px - slope * vertex.u_px, slope}, 0, vertex});
       }
