@@ -46,7 +46,9 @@ function placePen() {
 function lookAgain() {
   map = place.map;
   canvas.className = paper;
-  shown.show(map, palette());
+  const reach = place.size?.reach_mm ?? [];
+  part("reach").hidden = reach.length === 0;
+  shown.show(map, palette(), reach.map(([x_mm, y_mm]) => ({x_mm, y_mm})));
   placePen();
   for (const [i, button] of [...part("colours").children].entries())
     button.querySelector("i").style.background = palette().colours[i];

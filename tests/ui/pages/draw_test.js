@@ -119,6 +119,14 @@ describe("The page to draw on", () => {
     await rig.show(page);
   });
 
+  test("shows where the camera sees fingers", async () => {
+    const outline = (await status()).touch_screen.reach_mm;
+    const [[ax, ay], [bx, by]] = outline.filter(([x, y]) => y > 150 && y < 280 && x < 150);
+    const places = Array.from({length: 40}, (_, i) => inPixels([ax + (bx - ax) * i / 39, ay + (by - ay) * i / 39]));
+    const {colours} = await look(await page.screenshot(), places);
+    assert.ok(colours.includes("#6b7688") && colours.includes("#12161d"), `a dashed line: ${colours}`);
+  });
+
   test("holds a word as the finger wrote it, stroke by stroke", async () => {
     const word = hug([103, 170], 70);
     const drawn = await draw(word);
