@@ -87,6 +87,22 @@ const restingFinger = () => page.evaluate(() => new Promise((done) => {
   });
 }));
 
+// `dots`: where the canvas showed them.
+async function assertDrawnToASixteenthOfAPixel(dots) {
+  const wanted = await page.evaluate(() => new Promise((done) => {
+    const source = new EventSource("/live?topics=setup");
+    source.addEventListener("setup", (event) => {
+      source.close();
+      done(JSON.parse(event.data).dots);
+    });
+  }));
+  const px = [VIEW.width / SCREEN.width_mm, VIEW.height / SCREEN.height_mm];
+  dots.forEach((dot, number) => dot.forEach((mm, axis) => {
+    const off = Math.abs(mm - wanted[number][axis]) * px[axis];
+    assert.ok(off <= 0.5 / 16 + 0.005, `dot ${number} is drawn ${off} px beside its place`);
+  }));
+}
+
 const solved = () => eventually(async () => await page.locator("#save").isEnabled(), "the result");
 
 describe("The set-up page", () => {
@@ -209,6 +225,7 @@ describe("The set-up page", () => {
     const seconds = (Date.now() - begin) / 1000;
     console.log(`# nine dots: ${seconds.toFixed(1)} s; ${rig.pictures} pictures of the screen so far; ${await words("camera-facts")}`);
     assert.equal(dots.length, 9);
+    await assertDrawnToASixteenthOfAPixel(dots);
     assert.ok(seconds < 60, `it took ${seconds} s`);
     assert.equal(await whole(), undefined, "the result is not on the whole screen");
     assert.equal(await words("verdict"), "Good: save it.");
