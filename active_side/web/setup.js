@@ -235,7 +235,7 @@ function beginOrders() {
   press("back", () => order("back"));
   press("skip", () => order("skip"));
   press("save", () => order("save"));
-  for (const button of document.getElementsByClassName("cancel")) onPress(button, () => order("cancel"));
+  for (const button of document.querySelectorAll(".cancel")) onPress(button, () => order("cancel"));
   document.addEventListener("fullscreenchange", show);
   part("whole").addEventListener("resized", show);
 }
