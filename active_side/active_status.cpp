@@ -92,7 +92,8 @@ Json camera_problems(const TouchThreadState& state) {
   Json list = Json::array();
   if (state.camera_lost) list.push_back(problem_json(state.camera_problem, "plug the camera in, or correct [camera]"));
   if (state.camera_drift == DriftState::moved || state.camera_drift == DriftState::unseen) {
-    list.push_back(problem_json(drift_text(state.camera_drift), "run `telehug-active calibrate`"));
+    list.push_back(
+        problem_json(drift_text(state.camera_drift), "set it up again on the page that `telehug open` shows"));
   }
   if (state.camera_open && !state.knows_background) {
     list.push_back(problem_json("telehug learns how bezel and desk look with nobody there; no touch begins meanwhile",

@@ -32,7 +32,7 @@ ScreenSize known_or_usual(ScreenSize screen) {
   return screen.width_mm > 0 && screen.height_mm > 0 ? screen : usual_screen;
 }
 
-SetupAdvice advice_of(const SetupState& seen) {
+SetupAdvice advice_of(const SetupState& seen, const ScreenSize& screen) {
   switch (seen.advice) {
     case SetupAdvice::no_picture:
     case SetupAdvice::too_dark:
@@ -46,7 +46,8 @@ SetupAdvice advice_of(const SetupState& seen) {
   const ImagePoint& last = seen.border->points_px.back();
   const double slope = (last.v_px - first.v_px) / (last.u_px - first.u_px);
   const BorderLine line{first.v_px - slope * first.u_px, slope};
-  switch (turn_wanted(line, *seen.green_band, seen.image, false)) {
+  const bool upside_down = seen.green_band->top_px == green_band(screen, seen.image, true).top_px;
+  switch (turn_wanted(line, *seen.green_band, seen.image, upside_down)) {
     case CameraTurn::towards_screen:
       return SetupAdvice::turn_towards_screen;
     case CameraTurn::towards_user:
@@ -136,7 +137,7 @@ void SetupRun::look(const cv::Mat& bgr, Timestamp now) {
 void SetupRun::look_for_border(const cv::Mat& bgr, Timestamp now) {
   session_.look(bgr, now);
   seen_ = session_.state();
-  seen_.advice = advice_of(seen_);
+  seen_.advice = advice_of(seen_, session_.screen());
   if (seen_.step != SetupStep::bright) session_ = new_session(choice_);
 }
 

@@ -48,7 +48,8 @@ function partNow() {
 
 function showPart() {
   const now = partNow();
-  for (const name of PARTS) part(`part-${name}`).hidden = name !== now || (isWhole() && now === "away");
+  for (const name of PARTS) part(`part-${name}`).hidden = name !== now || isWhole();
+  for (const covered of [document.querySelector("header"), part("steps")]) covered.inert = isWhole();
   const current = isWhole() ? "touch" : STEP_OF[now];
   for (const item of document.querySelectorAll("#steps li")) {
     if (item.dataset.step === current) item.setAttribute("aria-current", "step");

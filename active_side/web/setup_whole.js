@@ -52,6 +52,7 @@ export async function enterWhole(ask) {
     whole.hidden = true;
     throw new Error(text("setup.no_whole"));
   }
+  part("panel").focus();
   await settled();
   uncovered = whyNotCovered(canvas);
   if (uncovered !== "") {

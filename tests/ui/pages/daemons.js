@@ -46,15 +46,16 @@ export class Daemons {
     return path.join(this.folder, `${side}.sock`);
   }
 
-  // `config`: a file; none: as if this user had the files in the folder `telehug` beside the sockets, and no X server.
-  start(side, settings, more = [], config = "/dev/null") {
+  // `own`: as if this user had the files of configuration in the folder `telehug` beside the sockets, and the X server
+  // `own.display`; else there are none.
+  start(side, settings, more = [], own = undefined) {
     const all = [...this.dds, `control.socket=${this.socket(side)}`,
                  `peer.pairs_folder=${path.join(this.folder, `pairs-${side}`)}`, ...settings];
     const log = fs.openSync(path.join(this.folder, `${side}.log`), "a");
     const child = spawn(path.join(this.bin, `telehug-${side}`),
-                        ["run", ...(config ? ["--config", config] : []), ...all.flatMap((setting) => ["--set", setting]), ...more],
+                        ["run", ...(own ? [] : ["--config", "/dev/null"]), ...all.flatMap((setting) => ["--set", setting]), ...more],
                         {stdio: ["ignore", log, log],
-                         env: config ? process.env : {...process.env, DISPLAY: "", XDG_CONFIG_HOME: this.folder}});
+                         env: own ? {...process.env, DISPLAY: own.display, XDG_CONFIG_HOME: this.folder} : process.env});
     this.children.push(child);
     return child;
   }
@@ -100,9 +101,10 @@ export class Daemons {
     return child;
   }
 
-  // The same, on the rig that `source` names, with files of configuration as a user has them.
-  async startUnsetActive(source) {
-    const child = this.start("active", [`rig.calibration_file=${path.join(this.folder, "rig.toml")}`], ["--source", source], null);
+  // The same, with the camera that `source` names, with files of configuration as a user has them.
+  async startUnsetActive(source, display = "", settings = []) {
+    const child = this.start("active", [`rig.calibration_file=${path.join(this.folder, "rig.toml")}`, ...settings],
+                             ["--source", source], {display});
     await eventually(() => this.status("active"), "the daemon that has no calibration");
     return child;
   }

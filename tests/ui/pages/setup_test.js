@@ -10,6 +10,7 @@ import {Browser} from "./browser.js";
 import {Daemons, eventually, tellingLogsOf} from "./daemons.js";
 import {SCREEN} from "./directed_rig.js";
 import {LoopedRig, whiteDot} from "./looped_rig.js";
+import {XServer} from "./x_server.js";
 
 const {TELEHUG_BIN, TELEHUG_SOURCE, TELEHUG_UI_PACKAGES, TELEHUG_UI_PICTURES} = process.env;
 
@@ -22,6 +23,7 @@ let daemons;
 let browser;
 let page;
 let rig;
+let monitor;
 
 const test = tellingLogsOf(() => daemons);
 
@@ -85,17 +87,34 @@ const restingFinger = () => page.evaluate(() => new Promise((done) => {
   });
 }));
 
+// `dots`: where the canvas showed them.
+async function assertDrawnToASixteenthOfAPixel(dots) {
+  const wanted = await page.evaluate(() => new Promise((done) => {
+    const source = new EventSource("/live?topics=setup");
+    source.addEventListener("setup", (event) => {
+      source.close();
+      done(JSON.parse(event.data).dots);
+    });
+  }));
+  const px = [VIEW.width / SCREEN.width_mm, VIEW.height / SCREEN.height_mm];
+  dots.forEach((dot, number) => dot.forEach((mm, axis) => {
+    const off = Math.abs(mm - wanted[number][axis]) * px[axis];
+    assert.ok(off <= 0.5 / 16 + 0.005, `dot ${number} is drawn ${off} px beside its place`);
+  }));
+}
+
 const solved = () => eventually(async () => await page.locator("#save").isEnabled(), "the result");
 
 describe("The set-up page", () => {
   before(async () => {
     daemons = new Daemons(TELEHUG_BIN, TELEHUG_SOURCE);
     rig = new LoopedRig(daemons);
-    [browser] = await Promise.all([
+    [browser, monitor] = await Promise.all([
       Browser.start(TELEHUG_UI_PACKAGES, TELEHUG_UI_PICTURES),
-      daemons.startUnsetActive(rig.source),
+      XServer.start(VIEW),
     ]);
-    page = await browser.open(await daemons.link("active"), {viewport: VIEW});
+    await daemons.startUnsetActive(rig.source, monitor.display);
+    page = await browser.open(await daemons.link("active"), {viewport: VIEW, screen: VIEW});
     rig.keepShowing(page);
   });
 
@@ -103,6 +122,7 @@ describe("The set-up page", () => {
     await rig.stopShowing();
     await browser?.end();
     await daemons.end();
+    monitor?.end();
   });
 
   // Screenshots change the window, which the rig must not see.
@@ -154,8 +174,14 @@ describe("The set-up page", () => {
     assert.match(answer, /runs already, perhaps on another page/);
   });
 
-  test("tells the size of a screen by a bank card", async () => {
+  test("knows the monitor and what the X server supposes of its size", async () => {
     await button("Next").click();
+    assert.equal(await page.locator("#monitors option").textContent(), "screen: 1280 × 1024");
+    await page.getByText("The size is only what this computer supposes").waitFor();
+    assert.equal(await page.locator("#width").inputValue(), "339.0");  // at 96 pixels an inch
+  });
+
+  test("tells the size of a screen by a bank card", async () => {
     await page.getByText("Without a ruler").click();
     await page.locator("#card-slider").evaluate((slider) => {
       slider.value = String(85.6 * 1280 / 380);
@@ -173,6 +199,21 @@ describe("The set-up page", () => {
     await button("Back").click();
   });
 
+  test("notices that its window does not cover the monitor", async () => {
+    await page.setViewportSize({width: 1280, height: 800});
+    await page.locator("#camera-advice", {hasText: "Good"}).waitFor();
+    await button("Next").click();
+    await page.locator("#width").fill("380");
+    await button("Show the pages on the whole screen").click();
+    await page.getByText("It has 1280 × 800 pixels, but screen has 1280 × 1024.").waitFor();
+    await browser.assertAccessible(page, "the question whether the window covers the monitor");
+    await button("Leave (Esc)").click();
+    await visible("part-screen").waitFor();
+    assert.equal(await whole(), undefined);
+    await button("Back").click();
+    await page.setViewportSize(VIEW);
+  });
+
   test("makes a full calibration of nine touches in less than a minute, and saves it", async () => {
     const begin = Date.now();
     await toWholeScreen("Nine dots");
@@ -184,6 +225,7 @@ describe("The set-up page", () => {
     const seconds = (Date.now() - begin) / 1000;
     console.log(`# nine dots: ${seconds.toFixed(1)} s; ${rig.pictures} pictures of the screen so far; ${await words("camera-facts")}`);
     assert.equal(dots.length, 9);
+    await assertDrawnToASixteenthOfAPixel(dots);
     assert.ok(seconds < 60, `it took ${seconds} s`);
     assert.equal(await whole(), undefined, "the result is not on the whole screen");
     assert.equal(await words("verdict"), "Good: save it.");
@@ -217,6 +259,7 @@ describe("The set-up page", () => {
     const kept = fs.readFileSync(settings(), "utf8");
     assert.match(kept, /screen_width_mm = 380/);
     assert.match(kept, /screen_height_mm = 300/);
+    assert.match(kept, /monitor = 'screen'/);
     assert.ok(kept.includes(`source = '${rig.source}'`), kept);
     assert.match(await words("saved-settings"), /50-setup\.toml/);
     assert.equal(await page.locator("#saved-problem").isVisible(), false);
@@ -287,17 +330,49 @@ describe("The set-up page", () => {
     await page.locator("#language").selectOption("en");
   });
 
-  test("ends by itself when no page looks any more", async () => {
-    const other = await page.context().newPage();
+  test("is left without an end", async () => {
     await rig.stopShowing();
     await page.goto("about:blank");
+    assert.equal((await daemons.status("active")).camera.why, "a set-up uses it");
+  });
+
+  // With a daemon of its own, before another camera.
+  async function withCamera(source, settings, look) {
+    const other = new Daemons(TELEHUG_BIN, TELEHUG_SOURCE);
+    try {
+      await other.startUnsetActive(source(other), "", settings);
+      const asked = await browser.open(await other.link("active"), {viewport: VIEW});
+      await asked.getByRole("button", {name: "Begin"}).click();
+      await look(asked);
+      await asked.context().close();
+    } finally {
+      await other.end();
+    }
+  }
+
+  test("says which way to turn a camera that sees too little of the screen", async () => {
+    await withCamera((other) => new LoopedRig(other).source.replace("virtual", "virtual:2"), [], async (asked) => {
+      await asked.getByText("Turn the camera so that it sees more of the screen.").waitFor();
+      assert.equal(await asked.locator("#camera-picture .edge.in").count(), 0, "the edge is not in the band");
+      await browser.photograph(asked, "setup-turn");
+    });
+  });
+
+  test("says what to do when there is no camera", async () => {
+    await withCamera(() => "webcam", ["camera.device=/dev/v4l/by-id/none"], async (asked) => {
+      await asked.getByText("The camera: there is no webcam /dev/v4l/by-id/none; plug it in").waitFor();
+      await asked.getByText("The camera delivers no pictures").waitFor();
+    });
+  });
+
+  test("has ended by itself meanwhile, since no page looked any more", async () => {
     await eventually(async () => (await daemons.status("active")).camera.why !== "a set-up uses it", "the camera is free");
-    await other.goto(new URL("/setup.html", (await daemons.link("active"))).href);
-    await other.getByText("No page looked any more: the set-up has ended.").waitFor();
-    await other.close();
+    await page.goto(new URL("/setup.html", await daemons.link("active")).href);
+    await page.getByText("No page looked any more: the set-up has ended.").waitFor();
   });
 
   test("asks nobody else for anything, complains of nothing and is light", () => {
-    assert.deepEqual(page.wrong, []);
+    assert.deepEqual(page.wrong.filter((one) => !one.includes("ERR_")), [], "but that the page was left");
+    browser.assertLight(page);
   });
 });
