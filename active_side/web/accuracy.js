@@ -196,6 +196,7 @@ async function start() {
 }
 
 async function goOn() {
+  showStatus(await command({command: "status"}));
   if (!isCalibratedAs(status.touch_screen, run.status.touch_screen)) throw new Error(text("accuracy.calibrated_anew"));
   await begin();
 }

@@ -338,8 +338,19 @@ describe("The accuracy check", () => {
     assert.deepEqual(page.wrong, []);
   });
 
-  test("says so when telehug itself is gone", async () => {
+  test("does not go on once camera and screen were set up again", async () => {
+    const {calibrated} = (await status()).touch_screen;
+    await rig.calibrate();
+    await eventually(async () => (await status()).touch_screen.calibrated !== calibrated, "the new calibration");
     await button("Go on with the rest").click();
+    await page.getByText("were set up again meanwhile").waitFor();
+    assert.equal(await page.locator("#stage").isVisible(), false);
+    await button("Begin anew").click();
+    assert.equal(await page.locator("#refusal").textContent(), "");
+  });
+
+  test("says so when telehug itself is gone", async () => {
+    await button("Begin, on the full screen").click();
     await page.locator("#dots .ring").waitFor();
     await daemons.endOne(daemons.children.at(-1));
     await page.locator("#trouble").getByText("telehug does not answer").waitFor();
