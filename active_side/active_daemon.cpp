@@ -25,14 +25,13 @@ constexpr std::uint32_t versions_a_rig = 1U << 20U;
 }  // namespace
 
 ActiveDaemon::ActiveDaemon(const ActiveConfig& config, Memberships memberships, std::unique_ptr<FrameSource> camera,
-                           std::unique_ptr<FeltFeedback> feedback, const Clock& clock)
+                           std::unique_ptr<FeltFeedback> feedback, SetupTools setup, const Clock& clock)
     : config_(config),
       left_out_(std::move(memberships.left_out)),
       clock_(clock),
       started_(clock.now()),
       session_(new_session_id()),
       camera_(std::move(camera)),
-      camera_name_(camera_->name()),
       touches_(session_),
       events_published_(metrics_.counter("events_published")),
       touches_published_(metrics_.counter("touches_published")),
@@ -47,6 +46,7 @@ ActiveDaemon::ActiveDaemon(const ActiveConfig& config, Memberships memberships, 
       local_touch_(local_outputs(config.local_touch), clock),
       sending_switch_(config.sending.at_start, config.sending.only_in_front),
       calibration_path_(rig_file(config.rig)),
+      camera_name_(camera_->name()),
       feedback_(std::move(feedback)),
       desktop_notifier_(clock),
       wearers_(PairsWatch(config.peer, Side::active, clock),
@@ -55,9 +55,14 @@ ActiveDaemon::ActiveDaemon(const ActiveConfig& config, Memberships memberships, 
                      std::move(membership), session_, std::chrono::milliseconds(config_.heartbeat_timeout_ms), clock_);
                }),
       control_(std::make_unique<ControlServer>(control_options(config.control, Side::active))),
-      pages_(config.web, active_pages_options(), *control_, clock) {
+      pages_(config.web, active_pages_options([this] { return setup_->picture(); }), *control_, clock) {
   pairing_.emplace(Side::active, pairs_folder(config.peer, Side::active), config.peer.loopback_only ? "127.0.0.1" : "",
                    *control_);
+  setup_.emplace(SetupDeskSettings{.config = config,
+                                   .tools = std::move(setup),
+                                   .cameras = [camera = config.camera] { return offered_cameras(camera); },
+                                   .monitors = monitors_of_display},
+                 *control_);
   if (config_.overlay.show)
     overlay_.emplace(X11OverlayConfig{.display = {}, .monitor = config_.body_map.monitor}, clock);
   if (!config_.sending.hotkey.empty())
@@ -89,6 +94,7 @@ ExitCode ActiveDaemon::run(Signals& signals) {
     paired = follow_pairs();
     if (!paired) break;
     if (request == SignalRequest::reload) calibration_time_.reset();
+    adopt_setup();
     load_rig_if_changed();
     tell_watchers();
     tell_pages();
@@ -122,6 +128,7 @@ void ActiveDaemon::touch_loop() {
       hear(*wearer, now);
     serve_hugs(now);
     adopt_rig();
+    adopt_camera();
     if (camera_wanted(now)) {
       take_frame();
     } else {
@@ -144,6 +151,14 @@ void ActiveDaemon::adopt_rig() {
   map_ = {};
 }
 
+void ActiveDaemon::adopt_camera() {
+  auto fresh = new_camera_.try_take();
+  if (!fresh) return;
+  camera_->close();
+  camera_ = *std::move(fresh);
+  camera_lost_ = false;
+}
+
 void ActiveDaemon::hear(ConnectedWearer& wearer, Timestamp now) {
   HugInbox& hugs = wearer.connection.beside().hugs();
   if (const auto heard = wearer.connection.serve(now)) hugs.observe(*heard);
@@ -155,6 +170,11 @@ bool ActiveDaemon::anybody_listens(Timestamp now) {
 }
 
 bool ActiveDaemon::camera_wanted(Timestamp now) {
+  if (setup_->camera().wanted()) {  // who touches dots touches nobody
+    if (rig_) rig_->face->want(false);
+    judge_sending(false);
+    return false;
+  }
   // Switched off by hand, the camera is not needed; covered by another window the chat may be back at once.
   const bool touches_go_out =
       rig_ && anybody_listens(now) && !stop_.stopped() && sending_switch_.mode() != SendingMode::off;
@@ -207,6 +227,7 @@ void ActiveDaemon::rest() {
   camera_lost_ = false;
   if (rig_) rig_->face->update(map_);
   publish(rig_ ? rig_->pipeline.process_nothing(map_, false) : touches_.build(clock_.now()), frame_.sequence);
+  setup_->camera().let_go();
   std::this_thread::sleep_for(resting_round);
 }
 
@@ -289,6 +310,27 @@ void ActiveDaemon::tell_state(Timestamp now) {
 }
 
 // --- housekeeping ---
+
+// What was set up from a page is in use at once, as if the daemon had been started with it.
+void ActiveDaemon::adopt_setup() {
+  const auto saved = setup_->take_saved();
+  if (!saved) return;
+  config_.rig.screen = saved->screen;
+  if (!saved->monitor.empty() && saved->monitor != config_.body_map.monitor) {
+    config_.body_map.monitor = saved->monitor;
+    if (overlay_) overlay_.emplace(X11OverlayConfig{.display = {}, .monitor = saved->monitor}, clock_);
+  }
+  if (auto camera = setup_->open(*saved)) {
+    {
+      const std::lock_guard lock(words_mutex_);
+      camera_name_ = (*camera)->name();
+    }
+    new_camera_.put(*std::move(camera));
+  } else {
+    spdlog::error("{}", camera.error().message);
+  }
+  calibration_time_.reset();
+}
 
 void ActiveDaemon::load_rig_if_changed() {
   std::erase_if(face_workers_, [](const auto& worker) { return worker.use_count() == 1; });

@@ -35,6 +35,7 @@
 #include "service/metrics.hpp"
 #include "service/notifier.hpp"
 #include "service/signals.hpp"
+#include "setup_run/setup_desk.hpp"
 #include "touched_box.hpp"
 #include "web/daemon_pages.hpp"
 
@@ -81,9 +82,9 @@ struct SeenHug {
 class ActiveDaemon {
  public:
   // Throws AlreadyRunning, std::runtime_error or std::invalid_argument with a sentence for a person.
-  // `feedback` may be null.
+  // `feedback` may be null. `setup`: for set-ups from the pages.
   ActiveDaemon(const ActiveConfig& config, Memberships memberships, std::unique_ptr<FrameSource> camera,
-               std::unique_ptr<FeltFeedback> feedback, const Clock& clock);
+               std::unique_ptr<FeltFeedback> feedback, SetupTools setup, const Clock& clock);
   ~ActiveDaemon();
   ActiveDaemon(const ActiveDaemon&) = delete;
   ActiveDaemon& operator=(const ActiveDaemon&) = delete;
@@ -102,6 +103,7 @@ class ActiveDaemon {
   void hear(ConnectedWearer& wearer, Timestamp now);
   void serve_hugs(Timestamp now);
   void adopt_rig();
+  void adopt_camera();
   [[nodiscard]] bool camera_wanted(Timestamp now);
   void take_frame();
   void rest();
@@ -112,6 +114,7 @@ class ActiveDaemon {
   void tell_state(Timestamp now);
 
   // Housekeeping
+  void adopt_setup();
   void load_rig_if_changed();
   void tell_watchers();
   void tell_pages();
@@ -139,8 +142,7 @@ class ActiveDaemon {
   MetricsRegistry metrics_;
   Notifier notifier_;
 
-  std::unique_ptr<FrameSource> camera_;
-  const std::string camera_name_;
+  std::unique_ptr<FrameSource> camera_;  // of the touch thread
 
   // Touch thread
   TouchStream touches_;
@@ -166,6 +168,7 @@ class ActiveDaemon {
 
   // Between the threads
   LatestSlot<std::unique_ptr<Rig>> new_rig_;
+  LatestSlot<std::unique_ptr<FrameSource>> new_camera_;
   LocalTouch local_touch_;
   FingerFeed fingers_;
   StopSwitch stop_;
@@ -186,6 +189,7 @@ class ActiveDaemon {
   std::vector<std::shared_ptr<FaceWorker>> face_workers_;
   std::uint32_t rigs_made_ = 0;
   mutable std::mutex words_mutex_;  // guards the sentences below, which the control thread reads
+  std::string camera_name_;
   std::string rig_problem_;
   std::string face_note_;
   std::optional<SeenHug> last_hug_;
@@ -210,7 +214,8 @@ class ActiveDaemon {
   SayOnChange say_hug_;
 
   Wearers wearers_;
-  std::optional<PairingDesk> pairing_;  // ends after what asks it
+  std::optional<PairingDesk> pairing_;  // these two end after what asks them
+  std::optional<SetupDesk> setup_;
   std::unique_ptr<ControlServer> control_;
   DaemonPages pages_;
   std::thread touch_thread_;

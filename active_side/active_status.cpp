@@ -92,7 +92,8 @@ Json camera_problems(const TouchThreadState& state) {
   Json list = Json::array();
   if (state.camera_lost) list.push_back(problem_json(state.camera_problem, "plug the camera in, or correct [camera]"));
   if (state.camera_drift == DriftState::moved || state.camera_drift == DriftState::unseen) {
-    list.push_back(problem_json(drift_text(state.camera_drift), "run `telehug-active calibrate`"));
+    list.push_back(
+        problem_json(drift_text(state.camera_drift), "set it up again on the page that `telehug open` shows"));
   }
   if (state.camera_open && !state.knows_background) {
     list.push_back(problem_json("telehug learns how bezel and desk look with nobody there; no touch begins meanwhile",
@@ -185,7 +186,8 @@ Json ActiveDaemon::problems(const TouchThreadState& state, const FaceState& face
   {
     const std::lock_guard lock(words_mutex_);
     if (!rig_problem_.empty())
-      list.push_back(problem_json(rig_problem_, "run `telehug-active calibrate`, or correct the file"));
+      list.push_back(
+          problem_json(rig_problem_, "set it up on the page that `telehug open` shows, or correct the file"));
     if (!face_note_.empty()) list.push_back(problem_json(face_note_, "telehug works, but not as well as it could"));
     if (!desktop_problem_.empty())
       list.push_back(problem_json(desktop_problem_, "or turn off [overlay] show and [sending] hotkey"));
@@ -250,12 +252,19 @@ Json ActiveDaemon::status() const {
   counters["hugs_received"] = hugs_received;
   counters["hugs_not_shown"] = hugs_not_shown;
 
+  const bool setting_up = setup_->camera().wanted();
   const char* open_why = state.camera_open      ? alive ? "a peer is connected" : "this PC uses the touches"
+                         : setting_up           ? "a set-up uses it"
                          : state.recording_over ? "the recording is over"
                          : state.camera_lost    ? "it can't be used"
                          : stopped              ? "stopped"
                          : !state.face          ? "not calibrated"
                                                 : "nobody needs it";
+  std::string camera_name;
+  {
+    const std::lock_guard lock(words_mutex_);
+    camera_name = camera_name_;
+  }
   Json answer = {
       {"side", "active"},
       {"version", version},
@@ -267,7 +276,7 @@ Json ActiveDaemon::status() const {
                          : "ok"},
       {"problems", problems(state, face, connected)},
       {"camera",
-       {{"name", camera_name_}, {"open", state.camera_open}, {"why", open_why}, {"problems", camera_problems(state)}}},
+       {{"name", camera_name}, {"open", state.camera_open}, {"why", open_why}, {"problems", camera_problems(state)}}},
       {"screen", {{"name", face.screen}, {"open", face.open}}},
       {"face",
        {{"found", face.map.version != 0},

@@ -30,8 +30,8 @@ enum class BorderChoice {
   triangle_alone,  // where the triangle's edges meet, if below them it is darker: of dim screens in light bezels no
                    // line is found there. The line goes through the vertex, as level as the longest one; its length is
                    // 0
-  longest,  // no triangle: the longest line, the lowest of those equally long. May be another edge than the
-            // screen's own: in one sample it is the bezel's mirror image, 9 px below
+  longest,         // no triangle: the longest line, the lowest of those equally long. May be another edge than the
+                   // screen's own: in one sample it is the bezel's mirror image, 9 px below
 };
 
 struct ScreenBorder {

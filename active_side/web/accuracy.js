@@ -12,7 +12,7 @@ import {drawDots, fillScreen, leaveScreen} from "./accuracy/stage.js";
 import {TouchTaker} from "./accuracy/touch_taker.js";
 import {covers, otherPixels, otherScreen} from "./accuracy/window_fit.js";
 import {Words} from "./accuracy/words.js";
-import {TouchFrames} from "./touch_frames.js";
+import {TouchFrames} from "./fingers/touch_frames.js";
 
 const SETUP = "/setup.html";
 const OPENS_MS = 4000;  // the camera, after it was asked for

@@ -109,7 +109,8 @@ std::string thing_text(std::string_view label, const Json& thing) {
   std::string text = joined(text_at(thing, "name"), ", ", text_at(thing, "gesture"));
   if (part(thing, "open") != nullptr) text = joined(text, ", ", flag_at(thing, "open") ? "open" : "closed");
   text = joined(text, ": ", text_at(thing, "why"));
-  return line(label, joined(text, ", ", rest_of(thing, {"name", "gesture", "open", "why", "places_px", "heaters"})));
+  return line(label, joined(text, ", ",
+                            rest_of(thing, {"name", "gesture", "open", "why", "places_px", "reach_mm", "heaters"})));
 }
 
 // One line for each of several.

@@ -41,7 +41,8 @@ export class Browser {
     });
     page.on("response", async (response) => {
       const stream = response.headers()["content-type"] === "text/event-stream";
-      if (response.ok() && !stream && !response.url().startsWith("data:"))
+      const live = stream || new URL(response.url()).pathname.startsWith("/picture/");  // what goes on is no weight
+      if (response.ok() && !live && !response.url().startsWith("data:"))
         page.bytes += (await response.body().catch(() => "")).length;
     });
     await page.goto(url);

@@ -197,6 +197,22 @@ describe("The parent's page", () => {
     await page.setViewportSize({width: 1280, height: 800});
   });
 
+  test("touches nobody while camera and screen are set up", async () => {
+    const setUp = (order) => page.evaluate(async (what) => {
+      const {command} = await import("/shared/page.js");
+      return command({command: "setup", order: what});
+    }, order);
+    await setUp("start");
+    await eventually(async () => await felt() === 0, "nothing is felt any more");
+    assert.equal((await touched()).length, 0, "the finger counts as lifted");
+    assert.equal((await status()).camera.why, "a set-up uses it");
+    const {touches_published: before} = (await status()).counters;
+    await eventually(async () => (await status()).camera.why === "a set-up uses it", "it goes on");
+    assert.equal((await status()).counters.touches_published, before);
+    await setUp("cancel");
+    await eventually(felt, "a box is felt again");
+  });
+
   test("holds touches back until they are to go out", async () => {
     await button("Never").click();
     await page.getByText("Touches don't go out: they are switched off here.").waitFor();

@@ -1,0 +1,254 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "setup_run/setup_desk.hpp"
+
+#include <gmock/gmock.h>
+
+#include <future>
+#include <mutex>
+
+#include "doubles/temporary_folder.hpp"
+#include "doubles/test_pictures.hpp"
+
+namespace telehug {
+namespace {
+
+using testing::HasSubstr;
+using Json = nlohmann::json;
+
+// A clock that the test moves while other threads read it.
+class SharedClock final : public Clock {
+ public:
+  [[nodiscard]] Timestamp now() const noexcept override { return from_ns(ns_); }
+  void advance(Duration by) { ns_ += std::chrono::nanoseconds(by).count(); }
+
+ private:
+  std::atomic<std::int64_t> ns_ = 1'000'000'000;
+};
+
+struct CameraState {
+  std::atomic<int> open = 0;
+  std::atomic<bool> lent = false;  // by the touch thread, whenever it was open
+  std::atomic<bool> faulty = false;
+};
+
+class CountedCamera final : public FrameSource {
+ public:
+  CountedCamera(CameraState& state, const CameraHandover& handover) : state_(state), handover_(handover) {}
+  ~CountedCamera() override { close(); }
+  CountedCamera(const CountedCamera&) = delete;
+  CountedCamera& operator=(const CountedCamera&) = delete;
+  Status open() override {
+    if (!std::exchange(open_, true)) ++state_.open;
+    state_.lent = handover_.wanted();
+    return Done{};
+  }
+  void close() override {
+    if (std::exchange(open_, false)) --state_.open;
+  }
+  [[nodiscard]] bool is_open() const override { return open_; }
+  ReadOutcome read(Frame& frame, Duration) override {
+    if (state_.faulty) throw std::runtime_error("the camera is on fire");
+    std::this_thread::sleep_for(1ms);
+    frame.bgr = picture_;
+    return ReadOutcome::frame;
+  }
+  [[nodiscard]] std::string last_error() const override { return ""; }
+  [[nodiscard]] std::string name() const override { return "counted"; }
+  [[nodiscard]] ImageSize size() const override { return {160, 120}; }
+
+ private:
+  CameraState& state_;
+  const CameraHandover& handover_;
+  bool open_ = false;
+  cv::Mat picture_ = sloping_picture(160, 120);
+};
+
+class TheSetUpDesk : public testing::Test {
+ protected:
+  TheSetUpDesk() {
+    control.start();
+    touch_thread = std::jthread([this](const std::stop_token& stop) {
+      while (!stop.stop_requested()) {
+        if (desk.camera().wanted() && lets_go) desk.camera().let_go();
+        std::this_thread::sleep_for(1ms);
+      }
+    });
+  }
+  ~TheSetUpDesk() override { touch_thread = {}; }
+
+  Json ask(Json request) {
+    request["command"] = "setup";
+    std::promise<Json> answer;
+    control.ask(std::move(request), [&answer](Json said) { answer.set_value(std::move(said)); });
+    return answer.get_future().get();
+  }
+  // What the pages were told last, once it is `wanted`.
+  Json told(const std::function<bool(const Json&)>& wanted) {
+    const auto deadline = std::chrono::steady_clock::now() + 20s;
+    while (std::chrono::steady_clock::now() < deadline) {
+      if (auto news = desk.news()) newest = *std::move(news);
+      if (wanted(newest)) return newest;
+      std::this_thread::sleep_for(1ms);
+    }
+    ADD_FAILURE() << "never told; the newest is " << newest;
+    return newest;
+  }
+  Json told_stage(const std::string& stage) {
+    return told([&](const Json& news) { return news["stage"] == stage; });
+  }
+
+  TemporaryFolder folder;
+  SharedClock clock;
+  CameraState camera;
+  std::atomic<bool> lets_go = true;
+  ControlServer control{ControlServerOptions{.socket = folder / "control.sock", .group = {}}};
+  SetupDeskSettings settings() {
+    return {
+        .config = {},
+        .tools = {.capture = {},
+                  .calibration_file = folder / "rig.toml",
+                  .config = {},
+                  .open = [this](const std::string&, const CaptureSettings&) -> Result<std::unique_ptr<FrameSource>> {
+                    return std::unique_ptr<FrameSource>(std::make_unique<CountedCamera>(camera, desk.camera()));
+                  },
+                  .calls = kernel_v4l2_calls(),
+                  .clock = clock},
+        .cameras =
+            [] {
+              return std::vector<OfferedCamera>{{"virtual", "a camera"}, {"webcam:/dev/x", "another"}};
+            },
+        .monitors = [] { return std::vector<SizedMonitor>(); }};
+  }
+  SetupDesk desk{settings(), control};
+  Json newest;
+  std::jthread touch_thread;
+};
+
+TEST_F(TheSetUpDesk, SaysWhatThereIsToChooseFrom) {
+  const Json offers = ask({{"order", "list"}});
+  EXPECT_EQ(offers["cameras"].size(), 2U);
+  EXPECT_TRUE(offers["monitors"].empty());
+  EXPECT_EQ(offers["chosen"]["camera"], "virtual");
+  EXPECT_EQ(told_stage("idle")["stage"], "idle");
+}
+
+TEST_F(TheSetUpDesk, OpensTheCameraOnlyWhenTheTouchThreadHasLetGo) {
+  lets_go = false;
+  EXPECT_FALSE(ask({{"order", "start"}}).contains("error"));
+  told_stage("waiting");
+  EXPECT_EQ(camera.open, 0);
+  lets_go = true;
+  const Json running = told_stage("running");
+  EXPECT_EQ(running["step"], "camera");
+  EXPECT_EQ(camera.open, 1);
+  EXPECT_TRUE(camera.lent);
+  EXPECT_TRUE(desk.camera().wanted());
+}
+
+TEST_F(TheSetUpDesk, GivesTheCameraBackWhenItIsBrokenOff) {
+  ask({{"order", "start"}});
+  told_stage("running");
+  EXPECT_FALSE(ask({{"order", "cancel"}}).contains("error"));
+  EXPECT_EQ(told_stage("ended")["why"], "cancelled");
+  EXPECT_EQ(camera.open, 0);
+  EXPECT_FALSE(desk.camera().wanted());
+  EXPECT_FALSE(desk.take_saved());
+  ask({{"order", "cancel"}});
+  told_stage("idle");
+}
+
+TEST_F(TheSetUpDesk, EndsWhenNoPageHasFollowedForTenSeconds) {
+  ask({{"order", "start"}});
+  told_stage("running");
+  for (int second = 0; second < 15; ++second) {
+    clock.advance(1s);
+    desk.followed();
+  }
+  told([](const Json& news) { return news["stage"] == "running"; });
+  EXPECT_EQ(camera.open, 1);
+  clock.advance(10'001ms);
+  EXPECT_EQ(told_stage("ended")["why"], "unfollowed");
+  EXPECT_EQ(camera.open, 0);
+}
+
+TEST_F(TheSetUpDesk, TellsASecondPageThatOneRunsAlready) {
+  ask({{"order", "start"}});
+  told_stage("running");
+  EXPECT_THAT(ask({{"order", "start"}})["error"].get<std::string>(), HasSubstr("runs already"));
+  EXPECT_EQ(camera.open, 1);
+}
+
+TEST_F(TheSetUpDesk, BeginsAnewAfterOneHasEnded) {
+  for (int time = 0; time < 3; ++time) {
+    Json answer;
+    do {
+      answer = ask({{"order", "start"}});  // the one before may just be putting its things away
+    } while (answer.contains("error"));
+    told_stage("running");
+    ask({{"order", "cancel"}});
+    told_stage("ended");
+  }
+}
+
+TEST_F(TheSetUpDesk, RefusesOrdersThatMakeNoSense) {
+  const auto refused = [this](const Json& request) { return ask(request).value("error", ""); };
+  EXPECT_THAT(refused({{"order", "dance"}}), HasSubstr("is one of list, start, cancel, begin"));
+  EXPECT_THAT(refused({{"order", 7}}), HasSubstr("is one of"));
+  EXPECT_THAT(refused({{"order", "confirm"}}), HasSubstr("no set-up runs"));
+  EXPECT_THAT(refused({{"order", "start"}, {"camera", "replay:/etc"}}), HasSubstr("not there any more"));
+  EXPECT_THAT(refused({{"order", "start"}, {"camera", 3}}), HasSubstr("not there any more"));
+  EXPECT_THAT(refused({{"order", "start"}, {"width_mm", 1}}), HasSubstr("100 to 3000 mm"));
+  EXPECT_FALSE(desk.camera().wanted());
+  ask({{"order", "start"}});
+  told_stage("running");
+  EXPECT_THAT(refused({{"order", "begin"}}), HasSubstr("how large is the visible screen?"));
+  EXPECT_THAT(refused({{"order", "repeat"}}), HasSubstr("number of a dot"));
+  EXPECT_THAT(refused({{"order", "repeat"}, {"dot", -1}}), HasSubstr("number of a dot"));
+}
+
+TEST_F(TheSetUpDesk, PassesOrdersOn) {
+  ask({{"order", "start"}});
+  told_stage("running");
+  ask({{"order", "begin"}, {"width_mm", 380}, {"height_mm", 300}, {"mode", "quick"}});
+  const Json begun = told([](const Json& news) { return news["step"] == "bright"; });
+  EXPECT_EQ(begun["run"]["chosen"]["mode"], "quick");
+  ask({{"order", "camera"}});
+  told([](const Json& news) { return news["step"] == "camera"; });
+}
+
+TEST_F(TheSetUpDesk, ShowsWhatTheCameraSeesWhileItRuns) {
+  EXPECT_EQ(desk.picture(), nullptr);
+  ask({{"order", "start"}});
+  told([this](const Json&) { return desk.picture() != nullptr; });
+  ask({{"order", "cancel"}});
+  told_stage("ended");
+  EXPECT_EQ(desk.picture(), nullptr);
+}
+
+TEST_F(TheSetUpDesk, SurvivesACameraThatFailsAndSaysSo) {
+  ask({{"order", "start"}});
+  told_stage("running");
+  camera.faulty = true;
+  const Json ended = told_stage("ended");
+  EXPECT_EQ(ended["why"], "failed");
+  EXPECT_EQ(ended["problem"], "the camera is on fire");
+  EXPECT_EQ(camera.open, 0);
+  EXPECT_FALSE(desk.camera().wanted());
+}
+
+TEST(TheHandoverOfTheCamera, KeepsItWithTheTouchesIfTheyDontLetGo) {
+  CameraHandover handover;
+  EXPECT_FALSE(handover.wanted());
+  EXPECT_FALSE(handover.take(20ms));
+  EXPECT_FALSE(handover.wanted());
+}
+
+TEST(TheHandoverOfTheCamera, IsNotMadeByLettingGoOfWhatNobodyWants) {
+  CameraHandover handover;
+  handover.let_go();
+  EXPECT_FALSE(handover.wanted());
+  EXPECT_FALSE(handover.take(20ms)) << "it is only let go of when it was wanted before";
+}
+
+}  // namespace
+}  // namespace telehug
