@@ -154,6 +154,10 @@ Json SetupDesk::pass_on(const std::string& what, const Json& request) {
     const ScreenSize& screen = order.choice.screen;
     if (!(screen.width_mm > 0) || !(screen.height_mm > 0))
       return refused("how large is the visible screen? \"width_mm\" and \"height_mm\" say it");
+    if (settings_.config.touch.model == "thesis" && order.choice.mode != SetupMode::thesis)
+      return refused(
+          "[touch] model of the configuration wants the thesis' model: choose its two dots, or set it to "
+          "\"default\" and start anew");
   }
   orders_.push_back(std::move(order));
   return {{"side", "active"}, {"setup", what}};

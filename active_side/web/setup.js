@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // Camera and screen are set up: from nothing to a saved calibration.
 import {beginPage, command, follow, make, onPress, text, write} from "/shared/page.js";
-import {drawOverlay, placePreview} from "/setup_preview.js";
-import {showResult} from "/setup_result.js";
-import {chosenMonitor, chosenSize, offerMonitors, writeMonitors} from "/setup_screen.js";
-import {play, wakeSounds} from "/setup_sound.js";
-import {enterWhole, isWhole, leaveWhole, showWhole} from "/setup_whole.js";
+import {drawOverlay, placePreview} from "/setup/preview.js";
+import {showResult} from "/setup/result.js";
+import {chosenMonitor, chosenSize, offerMonitors, writeMonitors} from "/setup/screen.js";
+import {play, wakeSounds} from "/setup/sound.js";
+import {enterWhole, isWhole, leaveWhole, showWhole} from "/setup/whole.js";
 
 const PARTS = ["begin", "camera", "screen", "away", "result", "saved"];
 const STEP_OF = {begin: "camera", camera: "camera", screen: "screen", away: "touch", result: "result", saved: "result"};
@@ -270,6 +270,7 @@ beginOrders();
 beginKeys();
 await refreshOffers();
 offerMonitors(offers);
+document.querySelector(`input[name=mode][value=${offers.chosen.mode}]`).checked = true;
 writeAll();
 follow({setup: hear});
 await linkFurther();

@@ -87,6 +87,16 @@ const restingFinger = () => page.evaluate(() => new Promise((done) => {
   });
 }));
 
+const countSounds = () => page.evaluate(() => {
+  const {start} = OscillatorNode.prototype;
+  window.heard = 0;
+  OscillatorNode.prototype.start = function(...when) {
+    ++window.heard;
+    return start.apply(this, when);
+  };
+});
+const sounds = () => page.evaluate(() => window.heard);
+
 // `dots`: where the canvas showed them.
 async function assertDrawnToASixteenthOfAPixel(dots) {
   const wanted = await page.evaluate(() => new Promise((done) => {
@@ -220,8 +230,10 @@ describe("The set-up page", () => {
     assert.deepEqual(await page.evaluate(() => [document.getElementById("shown").width, document.getElementById("shown").height]),
                      [VIEW.width, VIEW.height]);
     await confirmTheEdge();
+    await countSounds();
     const dots = await touchAllDots();
     await solved();
+    assert.ok(await sounds() >= 9, "each touch that is taken sounds");
     const seconds = (Date.now() - begin) / 1000;
     console.log(`# nine dots: ${seconds.toFixed(1)} s; ${rig.pictures} pictures of the screen so far; ${await words("camera-facts")}`);
     assert.equal(dots.length, 9);
@@ -234,7 +246,10 @@ describe("The set-up page", () => {
     assert.ok(rows.every((row) => row.includes("yes")), rows.join());
     const numbers = await page.locator("#map-numbers td").allTextContents();
     assert.ok(numbers.some((number) => /^[0-2]\.\d mm$/.test(number)) && numbers.includes("not seen"), numbers.join());
-    await browser.assertAccessible(page, "the result");
+    for (const colorScheme of ["dark", "light"]) {
+      await page.emulateMedia({colorScheme});
+      await browser.assertAccessible(page, `the result, ${colorScheme}`);
+    }
     await photograph("setup-result");
     await button("Save").click();
     await visible("part-saved").waitFor();
@@ -268,9 +283,16 @@ describe("The set-up page", () => {
   test("goes back to the whole screen after Escape, where it was", async () => {
     await button("Set up once more").click();
     await page.locator("#camera-facts", {hasText: "pictures a second"}).waitFor();
+    await page.getByLabel("Sounds").uncheck();
+    await page.evaluate(() => { window.heard = 0; });
     await toWholeScreen("Two dots: quick");
+    await visible("confirm").waitFor();
+    await browser.assertAccessible(page, "is it the edge?");
+    await photograph("setup-confirm");
     await confirmTheEdge();
     await eventually(async () => await whole() === "dot", "the first dot");
+    await browser.assertAccessible(page, "a dot");
+    await photograph("setup-dot");
     await page.evaluate(() => document.exitFullscreen());  // what Escape does, which no test can press on the window
     await page.getByText("The set-up waits").waitFor();
     await browser.assertAccessible(page, "left the whole screen");
@@ -293,6 +315,7 @@ describe("The set-up page", () => {
     await solved();
     console.log(`# two dots: ${((Date.now() - begin) / 1000).toFixed(1)} s`);
     assert.equal(dots.length, 2);
+    assert.equal(await sounds(), 0, "sounds are switched off");
     assert.equal((await page.locator("#dots tbody tr").count()), 2);
   });
 

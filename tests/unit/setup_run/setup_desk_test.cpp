@@ -206,6 +206,26 @@ TEST_F(TheSetUpDesk, RefusesOrdersThatMakeNoSense) {
   EXPECT_THAT(refused({{"order", "repeat"}, {"dot", -1}}), HasSubstr("number of a dot"));
 }
 
+TEST_F(TheSetUpDesk, MakesNoCalibrationThatTheConfigurationCantUse) {
+  SetupDeskSettings thesis = settings();
+  thesis.config.touch.model = "thesis";
+  ControlServer other(ControlServerOptions{.socket = folder / "other.sock", .group = {}});
+  SetupDesk strict(std::move(thesis), other);
+  other.start();
+  const auto say = [&other](const Json& request) {
+    std::promise<Json> answer;
+    other.ask(request, [&answer](Json said) { answer.set_value(std::move(said)); });
+    return answer.get_future().get();
+  };
+  EXPECT_EQ(say({{"command", "setup"}, {"order", "list"}})["chosen"]["mode"], "thesis");
+  say({{"command", "setup"}, {"order", "start"}});
+  Json begin{{"command", "setup"}, {"order", "begin"}, {"width_mm", 380}, {"height_mm", 300}, {"mode", "full"}};
+  EXPECT_THAT(say(begin).value("error", ""), HasSubstr("[touch] model"));
+  begin["mode"] = "thesis";
+  EXPECT_EQ(say(begin).value("error", ""), "");
+  strict.camera().let_go();
+}
+
 TEST_F(TheSetUpDesk, PassesOrdersOn) {
   ask({{"order", "start"}});
   told_stage("running");

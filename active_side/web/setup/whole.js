@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // The set-up on the whole screen: what the camera is to see, and on the upper third what the person is to do.
 import {text, write} from "/shared/page.js";
-import {drawShown} from "/setup_pages.js";
-import {placePreview} from "/setup_preview.js";
-import {whyNotCovered} from "/setup_screen.js";
+import {drawShown} from "/setup/pages.js";
+import {placePreview} from "/setup/preview.js";
+import {whyNotCovered} from "/setup/screen.js";
 
 const SETTLED_MS = 300;
-const LONGEST_MS = 3000;
+const LONGEST_MS = 5000;
 const RING_STEPS = 8;  // it is still for most of the time: what moves can be seen in the pictures
 
 const part = (id) => document.getElementById(id);
@@ -16,6 +16,7 @@ const ring = document.querySelector("#ring .done");
 let drawn = "";
 let uncovered = "";     // why the window does not cover the monitor, while that is asked about
 let answer = () => {};  // to that
+let whenResized = () => {};
 
 const pixels = () => ({width_px: canvas.width, height_px: canvas.height});
 
@@ -25,21 +26,29 @@ new ResizeObserver(([entry]) => {
   canvas.width = box?.inlineSize ?? Math.round(innerWidth * devicePixelRatio);
   canvas.height = box?.blockSize ?? Math.round(innerHeight * devicePixelRatio);
   drawn = "";
+  whenResized();
   whole.dispatchEvent(new Event("resized"));
 }).observe(canvas);
 
 export const isWhole = () => document.fullscreenElement === whole;
 
-// Until the window has been as large as it is for a while.
+// Until the window is drawn, and has been as large as it is for a while.
 async function settled() {
   const end = performance.now() + LONGEST_MS;
   for (let before = "", since = performance.now(); performance.now() < end;) {
-    const now = JSON.stringify(pixels());
-    if (now !== before) since = performance.now();
+    await new Promise(requestAnimationFrame);
+    const now = canvas.width > 0 ? JSON.stringify(pixels()) : "";
+    if (now !== before || now === "") since = performance.now();
     before = now;
     if (performance.now() - since > SETTLED_MS) return;
-    await new Promise((done) => setTimeout(done, 50));
   }
+}
+
+// A window that was moved, or has grown only now, needs no answer any more.
+function askAgain(ask) {
+  uncovered = whyNotCovered(canvas);
+  if (uncovered === "") answer(true);
+  else ask();
 }
 
 // To be called when a button was pressed. How many pixels the whole screen has; nothing if the person has left it.
@@ -57,7 +66,11 @@ export async function enterWhole(ask) {
   uncovered = whyNotCovered(canvas);
   if (uncovered !== "") {
     ask();
-    const anyway = await new Promise((done) => { answer = done; });
+    const anyway = await new Promise((done) => {
+      answer = done;
+      whenResized = () => askAgain(ask);
+    });
+    whenResized = () => {};
     uncovered = "";
     if (!anyway) return undefined;
   }

@@ -62,7 +62,8 @@ export function drawOverlay(state) {
   if (band) parts.push(shape("rect", {class: "band", x: 0, width: width - 1, y: band.top_px, height: band.bottom_px - band.top_px}));
   if (border) {
     parts.push(shape("polyline", {class: border.in_band ? "edge in" : "edge", points: border.points.map((point) => point.join(",")).join(" ")}));
-    if (border.vertex) parts.push(shape("circle", {class: "vertex", cx: border.vertex[0], cy: border.vertex[1], r: 14}));
+    // Without the triangle on the screen it is something else's corner.
+    if (border.vertex && state.show.page === "triangle") parts.push(shape("circle", {class: "vertex", cx: border.vertex[0], cy: border.vertex[1], r: 14}));
   }
   if (finger) parts.push(shape("circle", {class: "finger", cx: finger[0], cy: finger[1], r: 18}));
   overlay.replaceChildren(...parts);
