@@ -7,6 +7,7 @@ telehug_test(test_config KIND unit SUBJECT ops
 
 telehug_test(test_service KIND unit SUBJECT ops
   SOURCES unit/service/log_test.cpp unit/service/metrics_test.cpp unit/service/notifier_test.cpp
+          unit/service/open_metrics_test.cpp
           unit/service/signals_test.cpp
   DEPS telehug_service)
 
