@@ -2,7 +2,7 @@
 telehug_test(test_config KIND unit SUBJECT ops
   SOURCES unit/config/faults_test.cpp unit/config/layers_test.cpp unit/config/locator_test.cpp unit/config/places_test.cpp
           unit/config/quiet_hours_text_test.cpp
-          unit/config/random_bytes_test.cpp unit/config/shipped_file_test.cpp
+          unit/config/random_bytes_test.cpp unit/config/reload_test.cpp unit/config/shipped_file_test.cpp
   DEPS telehug_config)
 
 telehug_test(test_service KIND unit SUBJECT ops
