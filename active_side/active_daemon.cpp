@@ -76,7 +76,7 @@ ActiveDaemon::~ActiveDaemon() {
   control_.reset();  // its handlers use the pages
 }
 
-ExitCode ActiveDaemon::run(Signals& signals) {
+ExitCode ActiveDaemon::run(Signals& signals, ConfigReload<ActiveConfig>& configuration) {
   load_rig_if_changed();
   control_->start();
   pages_.start();
@@ -93,7 +93,7 @@ ExitCode ActiveDaemon::run(Signals& signals) {
     if (request == SignalRequest::stop) break;
     paired = follow_pairs();
     if (!paired) break;
-    if (request == SignalRequest::reload) calibration_time_.reset();
+    if (request == SignalRequest::reload) reload(configuration);
     adopt_setup();
     load_rig_if_changed();
     tell_watchers();
@@ -330,6 +330,14 @@ void ActiveDaemon::adopt_setup() {
     spdlog::error("{}", camera.error().message);
   }
   calibration_time_.reset();
+}
+
+void ActiveDaemon::reload(ConfigReload<ActiveConfig>& configuration) {
+  calibration_time_.reset();
+  const auto config = configuration.again();
+  if (!config) return;
+  config_.touch = config->touch;
+  config_.hug = config->hug;
 }
 
 void ActiveDaemon::load_rig_if_changed() {

@@ -16,6 +16,7 @@
 #include "common/version.hpp"
 #include "config/config.hpp"
 #include "connected_wearer.hpp"
+#include "daemon/config_reload.hpp"
 #include "daemon/connections.hpp"
 #include "daemon/pairing_desk.hpp"
 #include "daemon/stop_switch.hpp"
@@ -89,8 +90,8 @@ class ActiveDaemon {
   ActiveDaemon(const ActiveDaemon&) = delete;
   ActiveDaemon& operator=(const ActiveDaemon&) = delete;
 
-  // Until SIGTERM or SIGINT.
-  ExitCode run(Signals& signals);
+  // Until SIGTERM or SIGINT. SIGHUP reads configuration and calibration anew.
+  ExitCode run(Signals& signals, ConfigReload<ActiveConfig>& configuration);
 
  private:
   using Wearers = Connections<ConnectedWearer>;
@@ -115,6 +116,7 @@ class ActiveDaemon {
 
   // Housekeeping
   void adopt_setup();
+  void reload(ConfigReload<ActiveConfig>& configuration);
   void load_rig_if_changed();
   void tell_watchers();
   void tell_pages();

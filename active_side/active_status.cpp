@@ -10,6 +10,7 @@
 #include "body_map/vitruvian_grid.hpp"
 #include "body_map_json.hpp"
 #include "common/names.hpp"
+#include "daemon/metric_table.hpp"
 #include "daemon/status_parts.hpp"
 
 namespace telehug {
@@ -125,6 +126,7 @@ bool no_face(const FaceState& face) {
 
 void ActiveDaemon::answer_commands() {
   control_->on("status", [this](const Json&) { return status(); });
+  control_->on("metrics", [this](const Json&) { return Json{{"openmetrics", open_metrics(status(), metrics_)}}; });
   control_->on("face", [this](const Json& request) { return order_face(request); });
   control_->on("hug", [this](const Json& request) { return order_hug(request); });
   stop_.serve(*control_);

@@ -85,7 +85,7 @@ std::shared_ptr<ConnectedSender> PassiveDaemon::connect(Membership membership, c
                                            });
 }
 
-ExitCode PassiveDaemon::run(Signals& signals) {
+ExitCode PassiveDaemon::run(Signals& signals, ConfigReload<PassiveConfig>& configuration) {
   control_->start();
   pages_.start();
   panel_->start();  // before anything can be driven
@@ -102,7 +102,10 @@ ExitCode PassiveDaemon::run(Signals& signals) {
   for (const std::string& problem : panel_->status().problems)
     spdlog::warn("{}", problem);
   bool paired = true;
-  while (signals.wait(housekeeping_round) != SignalRequest::stop) {
+  while (true) {
+    const auto request = signals.wait(housekeeping_round);
+    if (request == SignalRequest::stop) break;
+    if (request == SignalRequest::reload) (void)configuration.again();
     paired = follow_pairs();
     if (!paired) break;
     tzset();  // follows a time zone that is changed meanwhile; looks at no more than the file's date if it is not
@@ -243,6 +246,7 @@ void PassiveDaemon::tell_state(Timestamp now) {
   own_state_.link = safety_.link_status();
   own_state_.safety = safety_.counters();
   own_state_.heaters = safety_.heaters();
+  own_state_.duties = safety_.duties();
   for (const auto& sender : senders_.adopted())
     sender->connection.tell_state(now);
   own_state_.stopped = safety_.stopped();

@@ -18,6 +18,7 @@
 #include "config/config.hpp"
 #include "connected_sender.hpp"
 #include "consent_switch.hpp"
+#include "daemon/config_reload.hpp"
 #include "daemon/connections.hpp"
 #include "daemon/pairing_desk.hpp"
 #include "daemon/stop_switch.hpp"
@@ -50,6 +51,7 @@ struct DriveThreadState {
   LinkStatus link;
   SafetyCounters safety;
   HeaterReports heaters;
+  DutyReports duties;
   bool stopped = false;
   std::string stop_reason;
   std::vector<std::uint8_t> running;  // ids of actuators
@@ -87,8 +89,8 @@ class PassiveDaemon {
   PassiveDaemon(const PassiveDaemon&) = delete;
   PassiveDaemon& operator=(const PassiveDaemon&) = delete;
 
-  // Until SIGTERM or SIGINT; the jacket is off when it returns.
-  ExitCode run(Signals& signals);
+  // Until SIGTERM or SIGINT; the jacket is off when it returns. SIGHUP reads the configuration anew.
+  ExitCode run(Signals& signals, ConfigReload<PassiveConfig>& configuration);
 
  private:
   using Senders = Connections<ConnectedSender>;

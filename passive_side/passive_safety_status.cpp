@@ -43,6 +43,9 @@ void PassiveDaemon::add_safety_status(Json& answer, const DriveThreadState& now)
   const Consent consent = consent_.consent();
   const WallTime time = wall_time();
   answer["consent"] = consent_json(consent, time);
+  answer["duty"] = Json::array();
+  for (const DutyReport& motor : now.duties)
+    answer["duty"].push_back({{"id", motor.id}, {"used", motor.used}});
   if (now.heaters.empty()) return;
   const std::string refusal = now.stopped ? "stopped: " + now.stop_reason : refusal_text(consent, time);
   const Permission permission = permission_at(consent, time, local_minute(time));

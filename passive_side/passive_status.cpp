@@ -4,6 +4,7 @@
 #include <fmt/core.h>
 
 #include "common/names.hpp"
+#include "daemon/metric_table.hpp"
 #include "daemon/status_parts.hpp"
 #include "jacket_status.hpp"
 #include "passive_daemon.hpp"
@@ -36,6 +37,7 @@ Json felt_json(const Felt& felt) {
 
 void PassiveDaemon::answer_commands() {
   control_->on("status", [this](const Json&) { return status(); });
+  control_->on("metrics", [this](const Json&) { return Json{{"openmetrics", open_metrics(status(), metrics_)}}; });
   control_->on("hug", [this](const Json& request) { return order_hug(request); });
   control_->on("jacket", [this](const Json& request) { return describe_jacket(request); });
   control_->on("jacket_trial", [this](const Json& request) { return order_trial(request); });

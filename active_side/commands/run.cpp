@@ -52,7 +52,12 @@ ExitCode run(const Options& options) {
   try {
     ActiveDaemon daemon(*config, *std::move(found), *std::move(camera), *std::move(feedback),
                         setup_tools(options, *config, capture, clock), clock);
-    return daemon.run(signals);
+    ConfigReload<ActiveConfig> configuration(*config, {"touch.up_after_ms", "hug."}, [&options] {
+      auto read = load_config(options.config);
+      if (read && !options.source.empty()) read->camera.source = options.source;
+      return read;
+    });
+    return daemon.run(signals, configuration);
   } catch (const AlreadyRunning& running) {
     return fail(ExitCode::already_running, Error{running.what()});
   } catch (const DdsError& error) {

@@ -17,6 +17,7 @@ Examples:
   telehug open                        this side's pages in the browser
   telehug status --check --side active && echo ready
   telehug watch                       touches and answers as they happen
+  telehug metrics --side passive      counters and latencies for a scraper (OpenMetrics)
   telehug stop --reason "dinner"      everything off, on both PCs
   telehug resume
   telehug pause 30                    the wearer wants nothing felt for half an hour
@@ -43,6 +44,7 @@ ExitCode parse_and_run(int argc, char** argv) {
   app.require_subcommand(1);
   telehug::add_status(app, result);
   telehug::add_watch(app, result);
+  telehug::add_metrics(app, result);
   telehug::add_stop(app, result);
   telehug::add_resume(app, result);
   telehug::add_pause(app, result);

@@ -74,11 +74,15 @@ void set_up_log(std::string_view level, LogStyle style) {
   }
   sink->set_formatter(std::move(formatter));
   auto logger = std::make_shared<spdlog::logger>("telehug", std::move(sink));
-  const auto known = spdlog::level::from_str(std::string(level));
-  // from_str() gives "off" for what it does not know.
-  logger->set_level(known == spdlog::level::off ? spdlog::level::info : known);
   logger->flush_on(spdlog::level::trace);
   spdlog::set_default_logger(std::move(logger));
+  set_log_level(level);
+}
+
+void set_log_level(std::string_view level) {
+  const auto known = spdlog::level::from_str(std::string(level));
+  // from_str() gives "off" for what it does not know.
+  spdlog::set_level(known == spdlog::level::off ? spdlog::level::info : known);
 }
 
 void SayOnChange::say(spdlog::level::level_enum level, std::string_view text) {

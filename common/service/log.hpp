@@ -20,6 +20,9 @@ enum class LogStyle {
 // `level`: trace, debug, info, warn or error; anything else is info.
 void set_up_log(std::string_view level, LogStyle style = LogStyle::automatic);
 
+// Likewise, from now on.
+void set_log_level(std::string_view level);
+
 // For a state that is looked at often and changes seldom: logs a text only if it differs from the one before.
 class SayOnChange {
  public:
