@@ -49,6 +49,7 @@ Json choice_json(const SetupChoice& choice) {
 SetupDesk::SetupDesk(SetupDeskSettings settings, ControlServer& control)
     : settings_(std::move(settings)),
       clock_(settings_.tools.clock),
+      handover_(clock_),
       picture_(clock_),
       usual_(chosen_before(settings_)),
       followed_(clock_.now()) {
