@@ -171,6 +171,26 @@ TEST_F(TheSetUpDesk, EndsWhenNoPageHasFollowedForTenSeconds) {
   EXPECT_EQ(camera.open, 0);
 }
 
+TEST_F(TheSetUpDesk, EndsThoughAPageIsOpenWhenNobodyGoesOnForAQuarterOfAnHour) {
+  const auto minutes_pass = [this](int minutes) {
+    for (int i = 0; i < 12 * minutes; ++i) {
+      clock.advance(5s);
+      desk.followed();
+    }
+  };
+  ask({{"order", "start"}});
+  told_stage("running");
+  minutes_pass(14);
+  EXPECT_FALSE(ask({{"order", "camera"}}).contains("error")) << "an order: somebody is there";
+  minutes_pass(14);
+  EXPECT_FALSE(ask({{"order", "camera"}}).contains("error"));
+  EXPECT_EQ(camera.open, 1);
+  minutes_pass(16);
+  EXPECT_EQ(told_stage("ended")["why"], "idle");
+  EXPECT_EQ(camera.open, 0);
+  EXPECT_FALSE(desk.camera().wanted());
+}
+
 TEST_F(TheSetUpDesk, TellsASecondPageThatOneRunsAlready) {
   ask({{"order", "start"}});
   told_stage("running");
