@@ -183,12 +183,16 @@ std::optional<ScreenBorder> triangle_alone(const cv::Mat& bgr, const std::vector
   // The whole triangle reaches over some of the screen: short pairs are things on the desk.
   constexpr double least_part = 0.2;  // of the picture's width, both edges together
   constexpr double least_between_deg = 10;
+  constexpr double largest_gap_part = 0.2;  // of the picture's width, between an edge that was found and the vertex
   constexpr double farthest_part = 0.15;  // of the picture's height, that the bezel's edges are away from the screen's
   cv::Mat grey;
   cv::cvtColor(bgr, grey, cv::COLOR_BGR2GRAY);
   for (const TriangleEdges& triangle : possible_triangles(segments, 0)) {
     if (triangle.length() < least_part * bgr.cols) break;
     if (inclination_deg(triangle.right) - inclination_deg(triangle.left) < least_between_deg) continue;
+    const double gap_px =
+        std::max(triangle.vertex.u_px - triangle.left.right.u_px, triangle.right.left.u_px - triangle.vertex.u_px);
+    if (gap_px > largest_gap_part * bgr.cols) continue;
     if (!darker_below(grey, triangle.left) || !darker_below(grey, triangle.right)) continue;
     const ImagePoint& vertex = triangle.vertex;
     const auto level = std::find_if(lines.begin(), lines.end(), [&](const LevelLine& line) {

@@ -5,6 +5,7 @@ if(NOT TELEHUG_SANITIZER)
   add_test(NAME ui_packages COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/ui/pages/install ${CMAKE_BINARY_DIR}/ui/packages)
   set_tests_properties(ui_packages PROPERTIES LABELS "ui;web" TIMEOUT 120 FIXTURES_SETUP ui_packages)
   foreach(page
+      accuracy
       body
       draw
       live

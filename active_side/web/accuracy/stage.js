@@ -38,6 +38,10 @@ export function drawDots({width_mm, height_mm}, unseen, check, isTouched) {
   part("panel").classList.toggle("below", check.dot.y_mm < height_mm / 2);
 }
 
+export function clearDots() {
+  part("dots").replaceChildren();
+}
+
 // Waits until `isCovering`, which becomes true some time after the browser has agreed.
 async function settled(isCovering) {
   const end = performance.now() + SETTLES_MS;

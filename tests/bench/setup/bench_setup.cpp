@@ -19,7 +19,7 @@
 #include <thread>
 #include <vector>
 
-#include "bench/setup/random_set_up.hpp"
+#include "doubles/random_set_up.hpp"
 
 namespace telehug {
 namespace {
