@@ -3,7 +3,7 @@
 import {beginPage, command, follow, make, onPress, text, write} from "/shared/page.js";
 import {drawOverlay, placePreview} from "/setup/preview.js";
 import {showResult} from "/setup/result.js";
-import {chosenMonitor, chosenSize, offerMonitors, writeMonitors} from "/setup/screen.js";
+import {chosenMonitor, chosenSize, offerMonitors, restoreScreen, writeMonitors} from "/setup/screen.js";
 import {play, wakeSounds} from "/setup/sound.js";
 import {enterWhole, isWhole, leaveWhole, showWhole} from "/setup/whole.js";
 
@@ -14,7 +14,6 @@ const part = (id) => document.getElementById(id);
 let news = {stage: "idle"};
 let offers = {cameras: []};
 let chooses = "camera";  // or "screen", while the daemon only looks at the camera
-let begun = null;        // the pixels with which the pages were begun
 let shownPart = "";
 let shownResult = "";
 
@@ -148,9 +147,17 @@ function sound(before) {
   else if (news.step === "solved" && before.step !== "solved") play(660, 880, 1320);
 }
 
+// This page was loaded while the pages are shown.
+function takeUp() {
+  const {chosen} = news.run;
+  restoreScreen(chosen);
+  document.querySelector(`input[name=mode][value=${chosen.mode}]`).checked = true;
+}
+
 function hear(newest) {
   const before = news;
   news = newest;
+  if (showsPages() && before.stage === "idle") takeUp();
   sound(before);
   if (runs() && news.step === "camera" && before.step !== "camera") chooses = "camera";
   if (isWhole() && ((pagesIn(before) && !showsPages()) || !runs())) leaveWhole();
@@ -159,15 +166,19 @@ function hear(newest) {
   show();
 }
 
+// Whether they are the pages of a screen with so many pixels.
+function areOf(px) {
+  const {width_px, height_px} = news.run.chosen;
+  return step() !== "camera" && width_px === px.width_px && height_px === px.height_px;
+}
+
 // The pages, on the whole screen; begun anew if they are to be others than before.
 async function goWhole(anew) {
   wakeSounds();
   const px = await enterWhole(show);
   if (px === undefined) return;
-  const same = begun !== null && begun.width_px === px.width_px && begun.height_px === px.height_px;
-  begun = px;
   const mode = document.querySelector("input[name=mode]:checked").value;
-  if (anew || !same)
+  if (anew || !areOf(px))
     await order("begin", {...chosenSize(), ...px, monitor: chosenMonitor()?.name ?? "", mode});
   show();
 }

@@ -17,4 +17,5 @@ if(NOT TELEHUG_SANITIZER)
       LABELS "ui;web" TIMEOUT 120 FIXTURES_REQUIRED ui_packages PROCESSORS 2
       ENVIRONMENT "TELEHUG_BIN=${CMAKE_RUNTIME_OUTPUT_DIRECTORY};TELEHUG_SOURCE=${PROJECT_SOURCE_DIR};TELEHUG_UI_PACKAGES=${CMAKE_BINARY_DIR}/ui/packages;TELEHUG_UI_PICTURES=${CMAKE_BINARY_DIR}/ui/pictures")
   endforeach()
+  set_tests_properties(test_setup_page PROPERTIES TIMEOUT 240)  # a person's whole set-up, in real time
 endif()

@@ -78,6 +78,13 @@ export function offerMonitors(offers) {
   sayWhence();
 }
 
+// As a set-up that runs was begun with.
+export function restoreScreen({monitor, width_mm, height_mm}) {
+  if (monitors.some((one) => one.name === monitor)) part("monitors").value = monitor;
+  setSize(width_mm, height_mm);
+  sayWhence();
+}
+
 // Of the visible screen; NaN where nothing sensible is written.
 export const chosenSize = () => ({width_mm: fields.width.valueAsNumber, height_mm: fields.height.valueAsNumber});
 

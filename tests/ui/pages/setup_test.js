@@ -301,6 +301,15 @@ describe("The set-up page", () => {
     await eventually(async () => await whole() === "dot", "the same dot");
   });
 
+  test("goes on where it was after the page was loaded anew", async () => {
+    await page.reload();
+    await page.getByText("The set-up waits").waitFor();
+    await countSounds();
+    await button("Back to the whole screen").click();
+    await eventually(async () => await whole() === "dot", "the same dot");
+    assert.match(await words("whole-title"), /^Dot 1 of 2/);
+  });
+
   test("takes the last dot back by a key, and leaves one out only where enough are left", async () => {
     await touchShownDot();
     assert.equal(await dotNumber(), 2);

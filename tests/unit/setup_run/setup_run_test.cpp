@@ -135,6 +135,10 @@ TEST_F(ASetUp, GoesOnLookingForTheEdgeAsLongAsTheCameraIsLookedAt) {
     EXPECT_EQ(told()["step"], "camera");
     EXPECT_TRUE(told()["border"].is_object()) << second;
   }
+  camera->picture.setTo(cv::Scalar::all(90));
+  camera->picture.rowRange(450, 720).setTo(cv::Scalar::all(220));
+  turns(30);
+  EXPECT_NEAR(told()["border"]["points"][4][1].get<double>(), 450, 2) << "the camera was turned";
 }
 
 TEST_F(ASetUp, CountsPicturesOfASecond) {
