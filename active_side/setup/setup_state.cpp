@@ -3,6 +3,26 @@
 
 namespace telehug {
 
+SetupPage page_of(SetupStep step) noexcept {
+  switch (step) {
+    case SetupStep::bright:
+    case SetupStep::confirm_border:
+      return SetupPage::triangle;
+    case SetupStep::background:
+      return SetupPage::black;
+    case SetupStep::marks:
+      return SetupPage::marks;
+    case SetupStep::dots:
+      return SetupPage::dot;
+    case SetupStep::solving:
+    case SetupStep::solved:
+    case SetupStep::saved:
+    case SetupStep::cancelled:
+      break;
+  }
+  return SetupPage::none;
+}
+
 const char* name_of(SetupStep step) noexcept {
   switch (step) {
     case SetupStep::bright:

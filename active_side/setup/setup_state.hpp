@@ -109,6 +109,9 @@ struct SetupState {
   bool can_save = false;
 };
 
+// What is shown in that step.
+[[nodiscard]] SetupPage page_of(SetupStep step) noexcept;
+
 [[nodiscard]] const char* name_of(SetupStep step) noexcept;
 [[nodiscard]] const char* name_of(SetupPage page) noexcept;
 [[nodiscard]] const char* name_of(SetupAdvice advice) noexcept;
