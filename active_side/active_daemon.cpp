@@ -187,6 +187,11 @@ bool ActiveDaemon::camera_wanted(Timestamp now) {
   return (screen_known || used_here) && !recording_over_;
 }
 
+// What touches the screen is meant for a page of this PC.
+bool ActiveDaemon::used_by_page() const {
+  return fingers_.wanted() || setup_->camera().touched_here();
+}
+
 void ActiveDaemon::take_frame() {
   const std::uint64_t before = frame_.sequence;
   if (!camera_->is_open()) {
@@ -232,8 +237,7 @@ void ActiveDaemon::rest() {
 }
 
 void ActiveDaemon::judge_sending(bool screen_known) {
-  const bool sends =
-      screen_known && sending_switch_.judge(rig_->face->view(), fingers_.wanted()) == SendingVerdict::sends;
+  const bool sends = screen_known && sending_switch_.judge(rig_->face->view(), used_by_page()) == SendingVerdict::sends;
   sending_ = sends;
   withholding_ = screen_known && !sends;
 }
@@ -241,7 +245,7 @@ void ActiveDaemon::judge_sending(bool screen_known) {
 // What touches the screen while touches don't go out touches nobody until it is lifted: a finger that closes the window
 // in front of the chat, a cloth, a stroke on this PC's own programs.
 void ActiveDaemon::hold_back() {
-  const bool kept_here = sending_switch_.mode() == SendingMode::off || fingers_.wanted();
+  const bool kept_here = sending_switch_.mode() == SendingMode::off || used_by_page();
   if (!withholding_ && !kept_here) return;
   rig_->pipeline.hold_back_contacts();
   for (const ContactState& contact : rig_->pipeline.contacts())

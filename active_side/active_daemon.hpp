@@ -105,6 +105,7 @@ class ActiveDaemon {
   void adopt_rig();
   void adopt_camera();
   [[nodiscard]] bool camera_wanted(Timestamp now);
+  [[nodiscard]] bool used_by_page() const;  // any thread
   void take_frame();
   void rest();
   void judge_sending(bool screen_known);

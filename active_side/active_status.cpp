@@ -156,7 +156,7 @@ Json ActiveDaemon::order_face(const Json& request) {
 
 Json ActiveDaemon::sending_json(const TouchThreadState& state) const {
   if (!state.face) return {{"name", name_of(sending_switch_.mode())}, {"on", false}, {"why", "not calibrated"}};
-  const SendingVerdict verdict = sending_switch_.judge(state.face->view(), fingers_.wanted());
+  const SendingVerdict verdict = sending_switch_.judge(state.face->view(), used_by_page());
   Json sending = {{"name", name_of(sending_switch_.mode())}, {"on", verdict == SendingVerdict::sends}};
   switch (verdict) {
     case SendingVerdict::sends:
@@ -214,8 +214,7 @@ Json ActiveDaemon::problems(const TouchThreadState& state, const FaceState& face
   if (state.recording_over) list.push_back(problem_json("the recording is over", "start again to replay it"));
   if (no_face(face)) {
     list.push_back(problem_json(face.problem, "touches are not sent until a face is found; check [body_map]"));
-  } else if (face.open &&
-             sending_switch_.judge(state.face->view(), fingers_.wanted()) == SendingVerdict::never_pinned) {
+  } else if (face.open && sending_switch_.judge(state.face->view(), used_by_page()) == SendingVerdict::never_pinned) {
     list.push_back(problem_json("touches don't go out: it is not known whether the video chat is in front",
                                 "run `telehug send on`; on X11 [body_map] window pins the window of the chat"));
   }

@@ -28,4 +28,9 @@ bool CameraHandover::take(Duration longest) {
   return true;
 }
 
+void CameraHandover::give_back() noexcept {
+  touched_here_until_ = clock_.now() + lingers;
+  state_ = State::with_touches;
+}
+
 }  // namespace telehug

@@ -49,9 +49,11 @@ Json choice_json(const SetupChoice& choice) {
 SetupDesk::SetupDesk(SetupDeskSettings settings, ControlServer& control)
     : settings_(std::move(settings)),
       clock_(settings_.tools.clock),
+      handover_(clock_),
       picture_(clock_),
       usual_(chosen_before(settings_)),
-      followed_(clock_.now()) {
+      followed_(clock_.now()),
+      went_on_(followed_) {
   control.on("setup", [this](const Json& request) { return obey(request); });
 }
 
@@ -131,7 +133,7 @@ Json SetupDesk::start(const Json& request) {
     runs_ = true;
     cancelled_ = false;
     orders_.clear();
-    followed_ = clock_.now();
+    followed_ = went_on_ = clock_.now();
   }
   tell("waiting", Json::object());
   worker_ = std::thread([this, choice] { work(choice); });
@@ -160,6 +162,7 @@ Json SetupDesk::pass_on(const std::string& what, const Json& request) {
           "\"default\" and start anew");
   }
   orders_.push_back(std::move(order));
+  went_on_ = clock_.now();
   return {{"side", "active"}, {"setup", what}};
 }
 
@@ -190,11 +193,18 @@ Json SetupDesk::carry_out(const SetupChoice& choice) {
                [this, &running] { return goes_on(running->state()); });
   running = &run;
   const char* why = nullptr;
+  Json place;  // in the set-up
   while (why == nullptr) {
     for (const SetupOrder& order : take_orders())
       run.obey(order);
     if (!run.over()) run.turn();
-    tell("running", run.state());
+    Json state = run.state();
+    if (Json now = {state["step"], state["dot"]}; now != place) {
+      place = std::move(now);
+      const std::lock_guard lock(mutex_);
+      went_on_ = clock_.now();
+    }
+    tell("running", std::move(state));
     why = run.saved() ? "saved" : run.over() ? "idle" : reason_to_end();
   }
   Json end = run.state();
@@ -208,7 +218,8 @@ Json SetupDesk::carry_out(const SetupChoice& choice) {
 const char* SetupDesk::reason_to_end() {
   const std::lock_guard lock(mutex_);
   if (cancelled_) return "cancelled";
-  return clock_.now() - followed_ > longest_unfollowed ? "unfollowed" : nullptr;
+  if (clock_.now() - followed_ > longest_unfollowed) return "unfollowed";
+  return clock_.now() - went_on_ > longest_idle ? "idle" : nullptr;
 }
 
 bool SetupDesk::goes_on(const Json& state) {

@@ -32,6 +32,7 @@ struct SetupDeskSettings {
 class SetupDesk {
  public:
   static constexpr Duration longest_unfollowed = 10s;  // then nobody looks any more, and it ends
+  static constexpr Duration longest_idle = 15min;      // without an order or a step further: a page that is forgotten
   static constexpr Duration longest_handover = 5s;
 
   // Adds the command "setup" to `control`, which must end before this does.
@@ -85,6 +86,7 @@ class SetupDesk {
   bool cancelled_ = false;
   std::vector<SetupOrder> orders_;
   Timestamp followed_;
+  Timestamp went_on_;
   std::optional<SetupChoice> saved_;
 
   std::thread worker_;  // of the control server's thread

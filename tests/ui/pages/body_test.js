@@ -150,6 +150,26 @@ describe("The wearer's page", () => {
     await browser.photograph(page, "body-quiet");
     await page.reload();
     await eventually(async () => await page.getByLabel("Quiet from").inputValue() === begin, "they are kept");
+
+    // A row that is not filled in, or being changed, holds up no other.
+    const add = page.getByRole("button", {name: "Add quiet hours"});
+    await add.click();
+    await add.click();
+    await page.getByLabel("Quiet from").nth(2).fill("03:00");
+    await page.getByLabel("until", {exact: true}).nth(2).fill("03:01");
+    const kept = async (hours) => eventually(async () => (await status()).consent.own_quiet_hours === hours, `${hours} are kept`);
+    await kept(`${begin}-${end},03:00-03:01`);
+    await page.getByLabel("Quiet from").nth(0).fill("");
+    await page.getByLabel("until", {exact: true}).nth(2).fill("03:02");
+    await kept(`${begin}-${end},03:00-03:02`);
+    await page.getByRole("button", {name: "Remove"}).nth(2).click();
+    await kept(`${begin}-${end}`);
+    assert.equal(await page.getByLabel("Quiet from").count(), 2, "what is half typed stays");
+    await page.getByLabel("Quiet from").nth(1).fill("04:00");
+    await page.getByLabel("until", {exact: true}).nth(1).fill("04:00");
+    await page.getByText(/begins when it ends/).waitFor();
+    await kept(`${begin}-${end}`);
+    await page.getByRole("button", {name: "Remove"}).nth(1).click();
     await page.getByRole("button", {name: "Remove"}).click();
     await litNow("a motor lights up again");
     assert.equal((await status()).consent.own_quiet_hours, undefined);

@@ -171,6 +171,26 @@ TEST_F(TheSetUpDesk, EndsWhenNoPageHasFollowedForTenSeconds) {
   EXPECT_EQ(camera.open, 0);
 }
 
+TEST_F(TheSetUpDesk, EndsThoughAPageIsOpenWhenNobodyGoesOnForAQuarterOfAnHour) {
+  const auto minutes_pass = [this](int minutes) {
+    for (int i = 0; i < 12 * minutes; ++i) {
+      clock.advance(5s);
+      desk.followed();
+    }
+  };
+  ask({{"order", "start"}});
+  told_stage("running");
+  minutes_pass(14);
+  EXPECT_FALSE(ask({{"order", "camera"}}).contains("error")) << "an order: somebody is there";
+  minutes_pass(14);
+  EXPECT_FALSE(ask({{"order", "camera"}}).contains("error"));
+  EXPECT_EQ(camera.open, 1);
+  minutes_pass(16);
+  EXPECT_EQ(told_stage("ended")["why"], "idle");
+  EXPECT_EQ(camera.open, 0);
+  EXPECT_FALSE(desk.camera().wanted());
+}
+
 TEST_F(TheSetUpDesk, TellsASecondPageThatOneRunsAlready) {
   ask({{"order", "start"}});
   told_stage("running");
@@ -257,17 +277,38 @@ TEST_F(TheSetUpDesk, SurvivesACameraThatFailsAndSaysSo) {
 }
 
 TEST(TheHandoverOfTheCamera, KeepsItWithTheTouchesIfTheyDontLetGo) {
-  CameraHandover handover;
+  const SharedClock clock;
+  CameraHandover handover(clock);
   EXPECT_FALSE(handover.wanted());
   EXPECT_FALSE(handover.take(20ms));
   EXPECT_FALSE(handover.wanted());
 }
 
 TEST(TheHandoverOfTheCamera, IsNotMadeByLettingGoOfWhatNobodyWants) {
-  CameraHandover handover;
+  const SharedClock clock;
+  CameraHandover handover(clock);
   handover.let_go();
   EXPECT_FALSE(handover.wanted());
   EXPECT_FALSE(handover.take(20ms)) << "it is only let go of when it was wanted before";
+}
+
+TEST(TheHandoverOfTheCamera, LeavesTouchesToTheSetUpForAMomentLonger) {
+  SharedClock clock;
+  CameraHandover handover(clock);
+  EXPECT_FALSE(handover.touched_here());
+  std::jthread touch_thread([&](const std::stop_token& stop) {
+    while (!stop.stop_requested())
+      handover.let_go();
+  });
+  ASSERT_TRUE(handover.take(10s));
+  clock.advance(1h);
+  EXPECT_TRUE(handover.touched_here());
+  handover.give_back();
+  EXPECT_FALSE(handover.wanted());
+  clock.advance(1'999ms);
+  EXPECT_TRUE(handover.touched_here()) << "a finger that lies there is not for the wearer";
+  clock.advance(1ms);
+  EXPECT_FALSE(handover.touched_here());
 }
 
 }  // namespace
