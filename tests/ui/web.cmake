@@ -11,6 +11,7 @@ if(NOT TELEHUG_SANITIZER)
       live
       pairing
       setup
+      setup_camera
       touch)
     add_test(NAME test_${page}_page COMMAND node --test ${CMAKE_CURRENT_SOURCE_DIR}/ui/pages/${page}_test.js)
     set_tests_properties(test_${page}_page PROPERTIES

@@ -32,11 +32,17 @@ new ResizeObserver(([entry]) => {
 
 export const isWhole = () => document.fullscreenElement === whole;
 
+// Frames are drawn, or, where they come slowly or the window can't be seen, some time has passed.
+const nextFrame = () => new Promise((done) => {
+  requestAnimationFrame(done);
+  setTimeout(done, 100);
+});
+
 // Until the window is drawn, and has been as large as it is for a while.
 async function settled() {
   const end = performance.now() + LONGEST_MS;
   for (let before = "", since = performance.now(); performance.now() < end;) {
-    await new Promise(requestAnimationFrame);
+    await nextFrame();
     const now = canvas.width > 0 ? JSON.stringify(pixels()) : "";
     if (now !== before || now === "") since = performance.now();
     before = now;
