@@ -271,5 +271,5 @@ beginKeys();
 await refreshOffers();
 offerMonitors(offers);
 writeAll();
-follow({setup: hear});
+follow({setup: hear}, {inBackground: true});  // or it would end when somebody looks something up
 await linkFurther();
