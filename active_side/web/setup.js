@@ -283,5 +283,5 @@ await refreshOffers();
 offerMonitors(offers);
 document.querySelector(`input[name=mode][value=${offers.chosen.mode}]`).checked = true;
 writeAll();
-follow({setup: hear});
+follow({setup: hear}, {inBackground: true});  // or it would end when somebody looks something up
 await linkFurther();

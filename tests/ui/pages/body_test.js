@@ -175,6 +175,25 @@ describe("The wearer's page", () => {
     assert.equal((await status()).consent.own_quiet_hours, undefined);
   });
 
+  test("leaves others the browser's few connections while nobody sees it", async () => {
+    const hide = (tab, hidden) => tab.evaluate((value) => {
+      Object.defineProperty(document, "hidden", {value, configurable: true});
+      document.dispatchEvent(new Event("visibilitychange"));
+    }, hidden);
+    const tabs = [];
+    for (let i = 0; i < 8; ++i) {
+      const tab = await page.context().newPage();
+      tabs.push(tab);
+      await tab.goto(page.url(), {timeout: 10_000});
+      await tab.getByText("Ready: you can be touched").waitFor({timeout: 10_000});
+      await hide(tab, true);
+    }
+    const follows = tabs[0].waitForRequest(/\/live/, {timeout: 10_000});
+    await hide(tabs[0], false);
+    await follows;
+    for (const tab of tabs) await tab.close();
+  });
+
   test("stops everything until it carries on", async () => {
     await page.getByRole("button", {name: "STOP everything"}).click();
     await page.getByText("Everything is stopped").waitFor();

@@ -47,8 +47,10 @@ export async function command(request) {
   return answer;
 }
 
-// Follows topics; handlers[topic] gets each newest value. Returns what ends it.
-export function follow(handlers) {
+// Follows topics while the page can be seen, or always; handlers[topic] gets each newest value. Returns what ends it.
+// Browsers have six connections for all pages of a server: forgotten tabs would keep others from loading, and from
+// stopping.
+export function follow(handlers, {inBackground = false} = {}) {
   let source = null;
   let again = 0;
   const begin = () => {
@@ -70,10 +72,20 @@ export function follow(handlers) {
       }, 3000);
     });
   };
-  begin();
-  return () => {
+  const pause = () => {
     clearTimeout(again);
-    source.close();
+    source?.close();
+    source = null;
+  };
+  const judge = () => {
+    if (document.hidden && !inBackground) pause();
+    else if (source === null) begin();
+  };
+  judge();
+  document.addEventListener("visibilitychange", judge);
+  return () => {
+    document.removeEventListener("visibilitychange", judge);
+    pause();
   };
 }
 
