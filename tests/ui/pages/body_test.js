@@ -245,9 +245,9 @@ describe("The wearer's page", () => {
     await page.setViewportSize({width: 1280, height: 800});
   });
 
-  test("asks nobody else for anything, complains of nothing and is light", () => {
+  test("asks nobody else for anything, complains of nothing and is light", async () => {
     assert.deepEqual(page.wrong, []);
-    browser.assertLight(page);
+    await browser.assertLight(page);
   });
 
   test("says that telehug does not answer when it has ended", async () => {

@@ -297,8 +297,8 @@ describe("The set-up page", () => {
     await page.locator("#language").selectOption("en");
   });
 
-  test("asks nobody else for anything, complains of nothing and is light", () => {
+  test("asks nobody else for anything, complains of nothing and is light", async () => {
     assert.deepEqual(page.wrong.filter((one) => !one.includes("ERR_")), [], "but that the page was left");
-    browser.assertLight(page);
+    await browser.assertLight(page);
   });
 });
