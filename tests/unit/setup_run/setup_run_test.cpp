@@ -200,9 +200,9 @@ TEST_F(ASetUp, IsOverWhenNobodyComesToItsPages) {
   begin();
   order("begin");
   turns(3);
-  clock.advance(299s);  // whatever edge there is is found by then
+  clock.advance(290s);
   turns(2);
-  EXPECT_EQ(told()["step"], "confirm_border");
+  EXPECT_EQ(told()["step"], "bright") << "no edge is seen";
   EXPECT_FALSE(run->over());
   clock.advance(301s);
   turns(2);
