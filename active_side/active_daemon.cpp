@@ -61,7 +61,8 @@ ActiveDaemon::ActiveDaemon(const ActiveConfig& config, Memberships memberships, 
   setup_.emplace(SetupDeskSettings{.config = config,
                                    .tools = std::move(setup),
                                    .cameras = [camera = config.camera] { return offered_cameras(camera); },
-                                   .monitors = monitors_of_display},
+                                   .monitors = monitors_of_display,
+                                   .why_stopped = [this] { return why_stopped(); }},
                  *control_);
   if (config_.overlay.show)
     overlay_.emplace(X11OverlayConfig{.display = {}, .monitor = config_.body_map.monitor}, clock);
@@ -374,6 +375,15 @@ std::vector<ConnectionStatus> ActiveDaemon::connections() const {
   for (const auto& wearer : wearers_.all())
     connections.push_back(wearer->connection.status());
   return connections;
+}
+
+// As status tells it: here, or by everybody who is connected.
+std::string ActiveDaemon::why_stopped() const {
+  if (stop_.stopped()) return "everything is stopped here: resume first, here or by `telehug resume`";
+  const auto connected = connections();
+  const bool by_peers =
+      !connected.empty() && std::ranges::all_of(connected, [](const auto& wearer) { return wearer.stopped_by_peer; });
+  return by_peers ? "the other side has stopped everything: they resume first" : "";
 }
 
 void ActiveDaemon::keep_connections() {

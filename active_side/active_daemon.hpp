@@ -126,6 +126,7 @@ class ActiveDaemon {
   [[nodiscard]] bool follow_pairs();
   void keep_connections();
   [[nodiscard]] std::vector<ConnectionStatus> connections() const;
+  [[nodiscard]] std::string why_stopped() const;  // any thread; empty: nobody has
   void answer_commands();
   nlohmann::json order_face(const nlohmann::json& request);
   nlohmann::json order_hug(const nlohmann::json& request);

@@ -229,9 +229,7 @@ Json ActiveDaemon::status() const {
   }
   const FaceState face = state.face ? state.face->state() : FaceState{};
   const auto connected = connections();
-  const bool peers_stopped =
-      !connected.empty() && std::ranges::all_of(connected, [](const auto& wearer) { return wearer.stopped_by_peer; });
-  const bool stopped = stop_.stopped() || peers_stopped;
+  const bool stopped = !why_stopped().empty();
   const bool alive = any_alive(connected);
   const bool fault = state.camera_lost || state.camera_drift == DriftState::moved ||
                      !picture_problem(state.picture).is_null() || !state.face || no_face(face);

@@ -115,6 +115,7 @@ Json SetupDesk::list() {
 }
 
 Json SetupDesk::start(const Json& request) {
+  if (std::string stopped = settings_.why_stopped(); !stopped.empty()) return refused(std::move(stopped));
   SetupChoice choice;
   {
     const std::lock_guard lock(mutex_);
@@ -177,8 +178,15 @@ void SetupDesk::work(const SetupChoice& choice) {
   }
   handover_.give_back();
   if (end["why"] == "failed") spdlog::warn("setting up: {}", end["problem"].get<std::string>());
-  tell("ended", std::move(end));
+  tell_end(std::move(end));
+}
+
+// Who is told of the end can begin anew.
+void SetupDesk::tell_end(Json end) {
+  end["stage"] = "ended";
   const std::lock_guard lock(mutex_);
+  state_ = std::move(end);
+  changed_ = true;
   runs_ = false;
 }
 
@@ -216,6 +224,7 @@ Json SetupDesk::carry_out(const SetupChoice& choice) {
 }
 
 const char* SetupDesk::reason_to_end() {
+  if (!settings_.why_stopped().empty()) return "stopped";
   const std::lock_guard lock(mutex_);
   if (cancelled_) return "cancelled";
   if (clock_.now() - followed_ > longest_unfollowed) return "unfollowed";

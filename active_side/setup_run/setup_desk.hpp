@@ -27,6 +27,8 @@ struct SetupDeskSettings {
   SetupTools tools;
   std::function<std::vector<OfferedCamera>()> cameras;
   std::function<std::vector<SizedMonitor>()> monitors;
+  // Empty while nobody has stopped; who has, and what to do, while no set-up may run. From any thread.
+  std::function<std::string()> why_stopped = [] { return std::string(); };
 };
 
 class SetupDesk {
@@ -48,8 +50,8 @@ class SetupDesk {
   // --- any thread ---
 
   // If it has changed since it was last asked for: {"stage": "idle"}; "waiting" for the camera; "running" with what
-  // SetupRun::state() says; "ended" with that and "why": "saved", "cancelled", "idle", "unfollowed" or "failed", and
-  // "problem".
+  // SetupRun::state() says; "ended" with that and "why": "saved", "cancelled", "idle", "unfollowed", "stopped" or
+  // "failed", and "problem".
   [[nodiscard]] std::optional<nlohmann::json> news();
   // A page follows the news.
   void followed();
@@ -68,6 +70,7 @@ class SetupDesk {
   [[nodiscard]] Json pass_on(const std::string& order, const Json& request);
   void work(const SetupChoice& choice);
   [[nodiscard]] Json carry_out(const SetupChoice& choice);
+  void tell_end(Json end);
   [[nodiscard]] const char* reason_to_end();
   [[nodiscard]] bool goes_on(const Json& state);
   [[nodiscard]] std::vector<SetupOrder> take_orders();
