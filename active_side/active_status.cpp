@@ -202,6 +202,10 @@ Json ActiveDaemon::problems(const TouchThreadState& state, const FaceState& face
   add_absences(list, Side::active, connections);
   for (const Json& problem : camera_problems(state))
     list.push_back(problem);
+  if (setup_->camera_hangs()) {
+    list.push_back(problem_json("the camera does not answer, and the set-up waits for it",
+                                "unplug it and plug it in again; if that does not help, start telehug-active again"));
+  }
   if (feedback_) {
     if (const std::string problem = feedback_->problem(); !problem.empty())
       list.push_back(problem_json("the actuator at the toucher's finger: " + problem,

@@ -32,6 +32,7 @@ function offset([x, y]) {
 }
 
 function advice() {
+  if (news.hangs) return text("setup.camera_hangs");
   if (news.advice === "none") return "";
   if (news.advice === "finger_beside_dot" && news.off_mm) return `${text("advice.finger_beside_dot")} ${offset(news.off_mm)}`;
   return text(`advice.${news.advice}`);
@@ -70,11 +71,11 @@ function showBegin() {
 
 function showCamera() {
   if (!runs()) {
-    write(part("camera-advice"), text("setup.waiting"));
+    write(part("camera-advice"), text(news.hangs ? "setup.camera_hangs" : "setup.waiting"));
     return;
   }
   const {camera} = news.run;
-  const good = news.advice === "good" && camera.problem === "";
+  const good = news.advice === "good" && camera.problem === "" && !news.hangs;
   part("camera-advice").classList.toggle("good", good);
   write(part("camera-advice"), good ? text("setup.camera_good") : advice());
   write(part("camera-facts"), camera.problem ? `${text("setup.camera_says")} ${camera.problem}`

@@ -29,6 +29,7 @@ struct CameraState {
   std::atomic<int> open = 0;
   std::atomic<bool> lent = false;  // by the touch thread, whenever it was open
   std::atomic<bool> faulty = false;
+  std::atomic<bool> hangs = false;
 };
 
 class CountedCamera final : public FrameSource {
@@ -38,6 +39,8 @@ class CountedCamera final : public FrameSource {
   CountedCamera(const CountedCamera&) = delete;
   CountedCamera& operator=(const CountedCamera&) = delete;
   Status open() override {
+    while (state_.hangs)
+      std::this_thread::sleep_for(1ms);
     if (!std::exchange(open_, true)) ++state_.open;
     state_.lent = handover_.wanted();
     return Done{};
@@ -170,6 +173,32 @@ TEST_F(TheSetUpDesk, EndsWhenSomebodyStopsAndBeginsNoneBeforeTheyResume) {
   stopped = false;
   EXPECT_EQ(ask({{"order", "start"}}).value("error", ""), "");
   told_stage("running");
+}
+
+TEST_F(TheSetUpDesk, SaysThatTheCameraHangsAndEndsWhenItDoesNotAnyMore) {
+  camera.hangs = true;
+  ask({{"order", "start"}});
+  told_stage("waiting");
+  clock.advance(10s);
+  desk.followed();
+  EXPECT_FALSE(desk.camera_hangs());
+  clock.advance(1ms);
+  EXPECT_TRUE(desk.camera_hangs());
+  told([](const Json& news) { return news["stage"] == "waiting" && news.value("hangs", false); });
+  EXPECT_THAT(ask({{"order", "start"}}).value("error", ""), HasSubstr("unplug it"));
+  ask({{"order", "cancel"}});
+  camera.hangs = false;
+  EXPECT_EQ(told_stage("ended")["why"], "cancelled");
+  EXPECT_FALSE(desk.camera_hangs());
+}
+
+TEST_F(TheSetUpDesk, EndsAtOnceWhileTheTouchThreadStillHasTheCamera) {
+  lets_go = false;
+  ask({{"order", "start"}});
+  told_stage("waiting");
+  ask({{"order", "cancel"}});
+  EXPECT_EQ(told_stage("ended")["why"], "cancelled");
+  EXPECT_FALSE(desk.camera().wanted());
 }
 
 TEST_F(TheSetUpDesk, EndsWhenNoPageHasFollowedForTenSeconds) {
