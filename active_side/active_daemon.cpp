@@ -321,15 +321,18 @@ void ActiveDaemon::adopt_setup() {
   const auto saved = setup_->take_saved();
   if (!saved) return;
   config_.rig.screen = saved->screen;
+  config_.camera.source = saved->camera;
   if (!saved->monitor.empty() && saved->monitor != config_.body_map.monitor) {
     config_.body_map.monitor = saved->monitor;
     if (overlay_) overlay_.emplace(X11OverlayConfig{.display = {}, .monitor = saved->monitor}, clock_);
   }
-  if (auto camera = setup_->open(*saved)) {
-    {
-      const std::lock_guard lock(words_mutex_);
-      camera_name_ = (*camera)->name();
-    }
+  auto camera = setup_->open(*saved);
+  {
+    const std::lock_guard lock(words_mutex_);
+    if (camera) camera_name_ = (*camera)->name();
+    setup_problem_ = camera ? "" : "the camera that was set up can't be used: " + camera.error().message;
+  }
+  if (camera) {
     new_camera_.put(*std::move(camera));
   } else {
     spdlog::error("{}", camera.error().message);

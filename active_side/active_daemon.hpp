@@ -193,6 +193,7 @@ class ActiveDaemon {
   mutable std::mutex words_mutex_;  // guards the sentences below, which the control thread reads
   std::string camera_name_;
   std::string rig_problem_;
+  std::string setup_problem_;
   std::string face_note_;
   std::optional<SeenHug> last_hug_;
   std::string hug_problem_;  // why it was not seen on the desktop

@@ -188,6 +188,8 @@ Json ActiveDaemon::problems(const TouchThreadState& state, const FaceState& face
     if (!rig_problem_.empty())
       list.push_back(
           problem_json(rig_problem_, "set it up on the page that `telehug open` shows, or correct the file"));
+    if (!setup_problem_.empty())
+      list.push_back(problem_json(setup_problem_, "set up another camera, or start telehug-active again"));
     if (!face_note_.empty()) list.push_back(problem_json(face_note_, "telehug works, but not as well as it could"));
     if (!desktop_problem_.empty())
       list.push_back(problem_json(desktop_problem_, "or turn off [overlay] show and [sending] hotkey"));
