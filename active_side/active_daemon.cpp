@@ -61,7 +61,8 @@ ActiveDaemon::ActiveDaemon(const ActiveConfig& config, Memberships memberships, 
   setup_.emplace(SetupDeskSettings{.config = config,
                                    .tools = std::move(setup),
                                    .cameras = [camera = config.camera] { return offered_cameras(camera); },
-                                   .monitors = monitors_of_display},
+                                   .monitors = monitors_of_display,
+                                   .why_stopped = [this] { return why_stopped(); }},
                  *control_);
   if (config_.overlay.show)
     overlay_.emplace(X11OverlayConfig{.display = {}, .monitor = config_.body_map.monitor}, clock);
@@ -320,15 +321,18 @@ void ActiveDaemon::adopt_setup() {
   const auto saved = setup_->take_saved();
   if (!saved) return;
   config_.rig.screen = saved->screen;
+  config_.camera.source = saved->camera;
   if (!saved->monitor.empty() && saved->monitor != config_.body_map.monitor) {
     config_.body_map.monitor = saved->monitor;
     if (overlay_) overlay_.emplace(X11OverlayConfig{.display = {}, .monitor = saved->monitor}, clock_);
   }
-  if (auto camera = setup_->open(*saved)) {
-    {
-      const std::lock_guard lock(words_mutex_);
-      camera_name_ = (*camera)->name();
-    }
+  auto camera = setup_->open(*saved);
+  {
+    const std::lock_guard lock(words_mutex_);
+    if (camera) camera_name_ = (*camera)->name();
+    setup_problem_ = camera ? "" : "the camera that was set up can't be used: " + camera.error().message;
+  }
+  if (camera) {
     new_camera_.put(*std::move(camera));
   } else {
     spdlog::error("{}", camera.error().message);
@@ -374,6 +378,15 @@ std::vector<ConnectionStatus> ActiveDaemon::connections() const {
   for (const auto& wearer : wearers_.all())
     connections.push_back(wearer->connection.status());
   return connections;
+}
+
+// As status tells it: here, or by everybody who is connected.
+std::string ActiveDaemon::why_stopped() const {
+  if (stop_.stopped()) return "everything is stopped here: resume first, here or by `telehug resume`";
+  const auto connected = connections();
+  const bool by_peers =
+      !connected.empty() && std::ranges::all_of(connected, [](const auto& wearer) { return wearer.stopped_by_peer; });
+  return by_peers ? "the other side has stopped everything: they resume first" : "";
 }
 
 void ActiveDaemon::keep_connections() {

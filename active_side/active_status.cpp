@@ -188,6 +188,8 @@ Json ActiveDaemon::problems(const TouchThreadState& state, const FaceState& face
     if (!rig_problem_.empty())
       list.push_back(
           problem_json(rig_problem_, "set it up on the page that `telehug open` shows, or correct the file"));
+    if (!setup_problem_.empty())
+      list.push_back(problem_json(setup_problem_, "set up another camera, or start telehug-active again"));
     if (!face_note_.empty()) list.push_back(problem_json(face_note_, "telehug works, but not as well as it could"));
     if (!desktop_problem_.empty())
       list.push_back(problem_json(desktop_problem_, "or turn off [overlay] show and [sending] hotkey"));
@@ -202,6 +204,10 @@ Json ActiveDaemon::problems(const TouchThreadState& state, const FaceState& face
   add_absences(list, Side::active, connections);
   for (const Json& problem : camera_problems(state))
     list.push_back(problem);
+  if (setup_->camera_hangs()) {
+    list.push_back(problem_json("the camera does not answer, and the set-up waits for it",
+                                "unplug it and plug it in again; if that does not help, start telehug-active again"));
+  }
   if (feedback_) {
     if (const std::string problem = feedback_->problem(); !problem.empty())
       list.push_back(problem_json("the actuator at the toucher's finger: " + problem,
@@ -229,9 +235,7 @@ Json ActiveDaemon::status() const {
   }
   const FaceState face = state.face ? state.face->state() : FaceState{};
   const auto connected = connections();
-  const bool peers_stopped =
-      !connected.empty() && std::ranges::all_of(connected, [](const auto& wearer) { return wearer.stopped_by_peer; });
-  const bool stopped = stop_.stopped() || peers_stopped;
+  const bool stopped = !why_stopped().empty();
   const bool alive = any_alive(connected);
   const bool fault = state.camera_lost || state.camera_drift == DriftState::moved ||
                      !picture_problem(state.picture).is_null() || !state.face || no_face(face);

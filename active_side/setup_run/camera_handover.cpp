@@ -15,11 +15,11 @@ void CameraHandover::let_go() noexcept {
   state_.compare_exchange_strong(expected, State::with_setup);
 }
 
-bool CameraHandover::take(Duration longest) {
+bool CameraHandover::take(Duration longest, const std::function<bool()>& waits) {
   state_ = State::wanted;
   const auto deadline = std::chrono::steady_clock::now() + longest;
   while (state_ != State::with_setup) {
-    if (std::chrono::steady_clock::now() > deadline) {
+    if (std::chrono::steady_clock::now() > deadline || !waits()) {
       give_back();
       return false;
     }

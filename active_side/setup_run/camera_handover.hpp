@@ -2,6 +2,7 @@
 #pragma once
 
 #include <atomic>
+#include <functional>
 
 #include "common/clock.hpp"
 
@@ -32,8 +33,10 @@ class CameraHandover {
 
   // --- the set-up's thread ---
 
-  // Waits until the touch thread has let go; false: it has not within that time, and keeps the camera.
-  [[nodiscard]] bool take(Duration longest);
+  // Waits until the touch thread has let go; false: it has not within that time, or as long as `waits`, and keeps the
+  // camera.
+  [[nodiscard]] bool take(
+      Duration longest, const std::function<bool()>& waits = [] { return true; });
   // Idempotent.
   void give_back() noexcept;
 

@@ -243,7 +243,7 @@ void SetupRun::go_on_tuning() {
     tune_->phase = TuneState::Phase::search;  // turn() searches
     return;
   }
-  auto picture = fresh_picture(*camera_, seen);
+  auto picture = fresh_picture(*camera_, seen, tell_);
   if (picture) {
     tune_->without = picture->clone();
     tune_->phase = TuneState::Phase::finger;
@@ -262,7 +262,7 @@ void SetupRun::search_settings() {
     return !tune_->ended;
   };
   Result<Tuning> found = Error{};
-  if (auto with = fresh_picture(*camera_, seen)) {
+  if (auto with = fresh_picture(*camera_, seen, tell_)) {
     found = tune_with_finger(*camera_, tune_->without, *with,
                              {choice_.camera.substr(webcam_prefix.size()), tools_.capture.webcam_fps,
                               tools_.calibration_file, tools_.capture.webcam_setup.tuned_file},

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The wearer's own quiet hours: a row of two times of day each.
-import {command, make, onPress, text, write} from "/shared/page.js";
+import {command, make, onPress, text, write, writeProblem} from "/shared/page.js";
 
 const list = document.getElementById("quiet-rows");
 const add = document.getElementById("quiet-add");
@@ -32,7 +32,7 @@ async function tell() {
     write(document.getElementById("refusal"), "");
     await told();
   } catch (problem) {
-    write(document.getElementById("refusal"), problem.message);
+    writeProblem(document.getElementById("refusal"), problem);
   }
 }
 

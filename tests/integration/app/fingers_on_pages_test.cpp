@@ -122,6 +122,22 @@ TEST_F(APageUsedWithTheFingers, KeepsThemFromTheWearerWhileItSetsUpAndUntilTheyA
   EXPECT_TRUE(eventually([this] { return pair.felt(); })) << pair.logs();
 }
 
+TEST_F(APageUsedWithTheFingers, SetsUpOnlyWhileNeitherSideHasStopped) {
+  pair.start_passive();
+  start_active();
+  const EnteredPages pages(pair, Side::active);
+  RawBrowser page = pages.follow("setup");
+  const auto started = [&] { return pages.order({{"command", "setup"}, {"order", "start"}}).value("error", ""); };
+  for (const Side side : {Side::active, Side::passive}) {
+    ASSERT_TRUE(eventually([&] { return started().empty(); })) << pair.logs();
+    EXPECT_FALSE(page.read_until("\"stage\":\"running\"").empty());
+    EXPECT_EQ(pair.telehug("stop", side).code, 0);
+    EXPECT_FALSE(page.read_until("\"why\":\"stopped\"").empty()) << pair.logs();
+    EXPECT_THAT(started(), testing::HasSubstr("resume first"));
+    EXPECT_EQ(pair.telehug("resume", side).code, 0);
+  }
+}
+
 TEST_F(APageUsedWithTheFingers, HasNoneWhileEverythingIsStopped) {
   start_active();
   const EnteredPages pages(pair, Side::active);

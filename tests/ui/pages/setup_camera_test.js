@@ -70,6 +70,26 @@ describe("The camera of the set-up page", () => {
     assert.match(answer, /runs already, perhaps on another page/);
   });
 
+  test("has its pages in a window as large as the screen where the browser grants no whole screen", async () => {
+    await page.evaluate(() => {
+      Element.prototype.requestFullscreen = () => Promise.reject(new TypeError("denied"));
+    });
+    await page.locator("#camera-advice", {hasText: "Good"}).waitFor();
+    await person.button("Next").click();
+    await page.locator("#width").fill(String(SCREEN.width_mm));
+    await page.locator("#height").fill(String(SCREEN.height_mm));
+    await page.evaluate((height) => Object.defineProperty(screen, "height", {value: height, configurable: true}), VIEW.height + 100);
+    await person.button("Show the pages on the whole screen").click();
+    await page.locator("#refusal", {hasText: "press F11"}).waitFor();
+    await page.evaluate((height) => Object.defineProperty(screen, "height", {value: height}), VIEW.height);
+    await person.button("Show the pages on the whole screen").click();
+    await page.locator('#whole[data-page="triangle"]:visible').waitFor();
+    await page.keyboard.press("Escape");
+    await page.locator("#whole").waitFor({state: "hidden"});
+    await person.visible("camera-again").click();
+    await page.locator("#camera-advice", {hasText: "Good"}).waitFor();
+  });
+
   test("says that the camera delivers nothing, and goes on when it does again", async () => {
     rig.spoil();
     await page.getByText("The camera delivers no pictures").waitFor();

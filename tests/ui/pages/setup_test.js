@@ -155,10 +155,11 @@ describe("The set-up page", () => {
   });
 
   test("notices that its window does not cover the monitor", async () => {
-    await page.setViewportSize({width: 1280, height: 800});
     await page.locator("#camera-advice", {hasText: "Good"}).waitFor();
+    const pagesAreHigh = (high) => page.evaluate((height) => { document.getElementById("shown").style.height = height; }, high);
     await person.button("Next").click();
     await page.locator("#width").fill("380");
+    await pagesAreHigh("800px");  // as in a window that a bar of the desktop keeps lower
     await person.button("Show the pages on the whole screen").click();
     await page.getByText("It has 1280 × 800 pixels, but screen has 1280 × 1024.").waitFor();
     await browser.assertAccessible(page, "the question whether the window covers the monitor");
@@ -166,7 +167,7 @@ describe("The set-up page", () => {
     await person.visible("part-screen").waitFor();
     assert.equal(await person.whole(), undefined);
     await person.button("Back").click();
-    await page.setViewportSize(VIEW);
+    await pagesAreHigh("");
   });
 
   test("makes a full calibration of nine touches in less than a minute, and saves it", async () => {
@@ -283,7 +284,7 @@ describe("The set-up page", () => {
   test("breaks off, changes nothing and lets go of the camera", async () => {
     const kept = fs.readFileSync(calibration(), "utf8");
     await person.button("Break off").click();
-    await page.getByText("The set-up was broken off. Nothing was changed.").waitFor();
+    await page.getByText("The set-up was broken off. The calibration is as before; settings that were found for the camera stay.").waitFor();
     assert.equal(fs.readFileSync(calibration(), "utf8"), kept);
     assert.notEqual((await daemons.status("active")).camera.why, "a set-up uses it");
   });

@@ -22,6 +22,20 @@ export function write(element, content) {
   if (element.textContent !== content) element.textContent = content;
 }
 
+// A text, and what the daemon says to it, which is English.
+export function writeWithSaid(element, content, said) {
+  if (element.textContent === `${content} ${said}`.trim()) return;
+  element.replaceChildren(content);
+  if (said !== "") element.append(content === "" ? "" : " ", make("span", {lang: "en", textContent: said}));
+}
+
+// What was refused: by the daemon, or by the page itself.
+export function writeProblem(element, problem) {
+  write(element, problem.message);
+  if (problem.fromDaemon) element.lang = "en";
+  else element.removeAttribute("lang");
+}
+
 export function make(tag, properties = {}, ...children) {
   const element = Object.assign(document.createElement(tag), properties);
   element.append(...children);
@@ -43,7 +57,8 @@ export async function command(request) {
   });
   if (response.status === 401) complain(text("lost.session"));
   const answer = response.headers.get("Content-Type") === "application/json" ? await response.json() : {};
-  if (!response.ok || answer.error) throw new Error(answer.error ?? text("lost.connection"));
+  if (answer.error) throw Object.assign(new Error(answer.error), {fromDaemon: true});
+  if (!response.ok) throw new Error(text("lost.connection"));
   return answer;
 }
 
@@ -131,7 +146,7 @@ export function onPress(button, act) {
     try {
       await act();
     } catch (problem) {
-      write(refusal, problem.message);
+      writeProblem(refusal, problem);
     } finally {
       button.removeAttribute("aria-busy");
     }
