@@ -56,20 +56,6 @@ cv::Mat fields_of(const cv::Mat& bgr) {
   return grey;
 }
 
-SetupAdvice advice_of(CameraTurn turn) {
-  switch (turn) {
-    case CameraTurn::towards_screen:
-      return SetupAdvice::turn_towards_screen;
-    case CameraTurn::towards_user:
-      return SetupAdvice::turn_towards_user;
-    case CameraTurn::level:
-      return SetupAdvice::turn_level;
-    case CameraTurn::none:
-      break;
-  }
-  return SetupAdvice::none;
-}
-
 }  // namespace
 
 cv::Mat EmptyScreen::turned(const cv::Mat& bgr) const {

@@ -132,4 +132,18 @@ const char* text_of(SetupAdvice advice) noexcept {
   return text(advice).text;
 }
 
+SetupAdvice advice_of(CameraTurn turn) noexcept {
+  switch (turn) {
+    case CameraTurn::towards_screen:
+      return SetupAdvice::turn_towards_screen;
+    case CameraTurn::towards_user:
+      return SetupAdvice::turn_towards_user;
+    case CameraTurn::level:
+      return SetupAdvice::turn_level;
+    case CameraTurn::none:
+      break;
+  }
+  return SetupAdvice::none;
+}
+
 }  // namespace telehug

@@ -115,6 +115,7 @@ struct SetupState {
 [[nodiscard]] const char* name_of(SetupStep step) noexcept;
 [[nodiscard]] const char* name_of(SetupPage page) noexcept;
 [[nodiscard]] const char* name_of(SetupAdvice advice) noexcept;
+[[nodiscard]] SetupAdvice advice_of(CameraTurn turn) noexcept;
 // A sentence in English for a terminal; pages have their own in their languages.
 [[nodiscard]] const char* text_of(SetupAdvice advice) noexcept;
 

@@ -47,17 +47,8 @@ SetupAdvice advice_of(const SetupState& seen, const ScreenSize& screen) {
   const double slope = (last.v_px - first.v_px) / (last.u_px - first.u_px);
   const BorderLine line{first.v_px - slope * first.u_px, slope};
   const bool upside_down = seen.green_band->top_px == green_band(screen, seen.image, true).top_px;
-  switch (turn_wanted(line, *seen.green_band, seen.image, upside_down)) {
-    case CameraTurn::towards_screen:
-      return SetupAdvice::turn_towards_screen;
-    case CameraTurn::towards_user:
-      return SetupAdvice::turn_towards_user;
-    case CameraTurn::level:
-      return SetupAdvice::turn_level;
-    case CameraTurn::none:
-      break;
-  }
-  return SetupAdvice::good;
+  const SetupAdvice advice = advice_of(turn_wanted(line, *seen.green_band, seen.image, upside_down));
+  return advice == SetupAdvice::none ? SetupAdvice::good : advice;
 }
 
 }  // namespace
