@@ -48,6 +48,7 @@ describe("The parent's page", () => {
     const first = await browser.open(await daemons.link(active));
     if (web.pages.includes("setup.html")) {
       await first.waitForURL("**/setup.html");
+      await first.getByRole("button", {name: "Begin"}).waitFor();  // it has all that it asks for
       await first.goto(new URL("/", first.url()).href);
     }
     await first.getByText("telehug must learn where your screen is").waitFor();
@@ -237,8 +238,8 @@ describe("The parent's page", () => {
     await browser.assertAccessible(page, "alone");
   });
 
-  test("asks nobody else for anything, complains of nothing and is light", () => {
+  test("asks nobody else for anything, complains of nothing and is light", async () => {
     assert.deepEqual(page.wrong, []);
-    browser.assertLight(page);
+    await browser.assertLight(page);
   });
 });
