@@ -56,9 +56,7 @@ ExitCode run(const Options& options) {
   const SteadyClock clock;
   try {
     PassiveDaemon daemon(*config, *std::move(found), *std::move(profile), *std::move(link), clock);
-    // Limits, the jacket and who may touch are taken at the start alone: nothing is weakened while it runs.
-    ConfigReload<PassiveConfig> configuration(*config, {}, [&sources] { return load_passive_config(sources); });
-    return daemon.run(signals, configuration);
+    return daemon.run(signals, ConfigReload<PassiveConfig>([&sources] { return load_passive_config(sources); }));
   } catch (const AlreadyRunning& running) {
     return fail(ExitCode::already_running, running.what());
   } catch (const LineMissing& missing) {

@@ -85,7 +85,7 @@ std::shared_ptr<ConnectedSender> PassiveDaemon::connect(Membership membership, c
                                            });
 }
 
-ExitCode PassiveDaemon::run(Signals& signals, ConfigReload<PassiveConfig>& configuration) {
+ExitCode PassiveDaemon::run(Signals& signals, const ConfigReload<PassiveConfig>& configuration) {
   control_->start();
   pages_.start();
   panel_->start();  // before anything can be driven
@@ -105,7 +105,7 @@ ExitCode PassiveDaemon::run(Signals& signals, ConfigReload<PassiveConfig>& confi
   while (true) {
     const auto request = signals.wait(housekeeping_round);
     if (request == SignalRequest::stop) break;
-    if (request == SignalRequest::reload) (void)configuration.again();
+    if (request == SignalRequest::reload) reload(configuration);
     paired = follow_pairs();
     if (!paired) break;
     tzset();  // follows a time zone that is changed meanwhile; looks at no more than the file's date if it is not
@@ -122,9 +122,22 @@ ExitCode PassiveDaemon::run(Signals& signals, ConfigReload<PassiveConfig>& confi
   return paired ? ExitCode::ok : ExitCode::pair_ended;
 }
 
+void PassiveDaemon::reload(const ConfigReload<PassiveConfig>& configuration) {
+  notifier_.reloading(clock_.now());
+  configuration.again(config_, reload_notes_, [this](const PassiveConfig& next) -> Status {
+    auto hours = parse_quiet_hours(next.consent.quiet_hours);
+    if (!hours) return hours.error();
+    if (next.consent.quiet_hours != config_.consent.quiet_hours) consent_.set_configured_quiet_hours(*std::move(hours));
+    config_.consent.quiet_hours = next.consent.quiet_hours;
+    config_.log = next.log;
+    return Done{};
+  });
+  notifier_.ready();
+}
+
 bool PassiveDaemon::follow_pairs() {
   const auto ending = [this](ConnectedSender& sender, const std::string& why) {
-    spdlog::error("{}", why);
+    log_about({.stage = "pairing", .peer = sender.name()}, spdlog::level::err, why);
     // A stop outlives whoever said it.
     if (sender.connection.stopped_by_peer() && !stop_.stopped())
       stop_.stop({{"reason", sender.name() + " had stopped everything before the pair ended"}});

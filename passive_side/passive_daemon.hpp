@@ -90,7 +90,7 @@ class PassiveDaemon {
   PassiveDaemon& operator=(const PassiveDaemon&) = delete;
 
   // Until SIGTERM or SIGINT; the jacket is off when it returns. SIGHUP reads the configuration anew.
-  ExitCode run(Signals& signals, ConfigReload<PassiveConfig>& configuration);
+  ExitCode run(Signals& signals, const ConfigReload<PassiveConfig>& configuration);
 
  private:
   using Senders = Connections<ConnectedSender>;
@@ -111,6 +111,7 @@ class PassiveDaemon {
   void tell_panel(Timestamp now);
 
   // Housekeeping
+  void reload(const ConfigReload<PassiveConfig>& configuration);
   [[nodiscard]] bool follow_pairs();
   void tell_watchers();
   void tell_running_to_all();
@@ -133,7 +134,7 @@ class PassiveDaemon {
   [[nodiscard]] DriveThreadState state() const;
   [[nodiscard]] std::unique_ptr<Panel> make_panel();
 
-  PassiveConfig config_;
+  PassiveConfig config_;  // of it [consent] quiet_hours and [log] change, which the housekeeping thread alone looks at
   const std::vector<std::string> left_out_;  // pairs that could not be used at the start, and why
   const Clock& clock_;
   Timestamp started_;
@@ -175,6 +176,7 @@ class PassiveDaemon {
   boost::lockfree::spsc_queue<RunningChange, boost::lockfree::capacity<1024>> running_;
 
   // Housekeeping
+  ReloadNotes reload_notes_{Side::passive};
   SayOnChange say_jacket_;
   SayOnChange say_consent_;
   LimitNotes limit_notes_;

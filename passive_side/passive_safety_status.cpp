@@ -88,9 +88,11 @@ void PassiveDaemon::add_safety_counters(Json& counters, const SafetyCounters& sa
 }
 
 void PassiveDaemon::tell_of_limits() {
-  if (const auto note = limit_notes_.next(state().safety, clock_.now())) spdlog::info("{}", *note);
+  if (const auto note = limit_notes_.next(state().safety, clock_.now()))
+    log_about({.stage = "safety"}, spdlog::level::info, *note);
   const std::string refusal = refusal_text(consent_.consent(), wall_time());
-  say_consent_.say(spdlog::level::info, refusal.empty() ? "touches may be felt" : refusal + ": nothing is felt");
+  say_consent_.say(spdlog::level::info, refusal.empty() ? "touches may be felt" : refusal + ": nothing is felt",
+                   {.stage = "consent"});
 }
 
 }  // namespace telehug

@@ -82,8 +82,7 @@ Rows common_rows(ControlConfig& control, WebConfig& web, LogConfig& log) {
        "",
        {},
        "true: /metrics on that port tells any program and user of this PC counters and latencies (OpenMetrics), "
-       "without "
-       "a cookie; give the port a number then."},
+       "without a cookie; give the port a number then."},
       {"log", "level", &log.level, "", OneOf{{"trace", "debug", "info", "warn", "error"}},
        "The least important messages that are logged."},
   };

@@ -10,11 +10,6 @@
 namespace telehug {
 namespace {
 
-bool is_live(const std::string& path, const LiveKeys& live) {
-  return std::ranges::any_of(
-      live, [&](std::string_view key) { return key == path || (key.ends_with('.') && path.starts_with(key)); });
-}
-
 void take_over(const Target& to, const Target& from) {
   std::visit([&from](auto* value) { *value = *std::get<decltype(value)>(from); }, to);
 }
@@ -39,6 +34,17 @@ Result<Reloaded<Config>> merge(const Config& used, Config read, const LiveKeys& 
 }
 
 }  // namespace
+
+const LiveKeys& live_keys(Side side) {
+  static const LiveKeys active{"touch.", "body_map.", "hug.", "log.level"};
+  static const LiveKeys passive{"consent.quiet_hours", "log.level"};
+  return side == Side::active ? active : passive;
+}
+
+bool is_live(std::string_view path, const LiveKeys& live) {
+  return std::ranges::any_of(
+      live, [&](std::string_view key) { return key == path || (key.ends_with('.') && path.starts_with(key)); });
+}
 
 Result<Reloaded<ActiveConfig>> reloaded(const ActiveConfig& used, const ActiveConfig& read, const LiveKeys& live) {
   return merge(used, read, live);

@@ -3,67 +3,54 @@
 // What a daemon does about its configuration on SIGHUP.
 #pragma once
 
-#include <spdlog/spdlog.h>
-
+#include <algorithm>
+#include <exception>
 #include <functional>
-#include <optional>
-#include <sstream>
-#include <string>
 #include <utility>
 
+#include "common/result.hpp"
 #include "config/reload.hpp"
+#include "daemon/reload_notes.hpp"
 #include "service/log.hpp"
 
 namespace telehug {
 
-// Reads the configuration anew and says in the log what comes of it: every key that is another now, every one that
-// needs a restart, or every fault with its file and line, after which all is as it was. Also the log's level follows.
+// Reads the configuration anew and notes what comes of it: every key that is another now, every one that needs a
+// restart, or every fault with its file and line, after which all is as it was. Also the log's level follows.
 template <typename Config>
 class ConfigReload {
  public:
+  // Reads all files; the error names each fault.
   using Load = std::function<Result<Config>()>;
+  // Takes the new configuration over, or says why it can't be used.
+  using Use = std::function<Status(const Config& next)>;
 
-  // `live` beside "log.level": see reloaded().
-  ConfigReload(Config used, LiveKeys live, Load load)
-      : used_(std::move(used)), live_(std::move(live)), load_(std::move(load)) {
-    live_.emplace_back("log.level");
-  }
+  explicit ConfigReload(Load load) : load_(std::move(load)) {}
 
-  // What is to be used from now on; nothing if that is what was used before.
-  [[nodiscard]] std::optional<Config> again() {
-    const auto read = load_();
-    if (!read) return keep(read.error().message);
-    auto next = reloaded(used_, *read, live_);
-    if (!next) return keep(next.error().message);
-    bool changed = false;
-    for (const KeyChange& change : next->changes) {
-      changed = changed || change.now;
-      if (change.now) {
-        spdlog::info("configuration: {} is {} now, was {}", change.path, change.after, change.before);
-      } else {
-        spdlog::warn("configuration: {} = {} needs a restart; {} is still in use", change.path, change.after,
-                     change.before);
-      }
+  // `used`: what is in use now. `use` is called if of that anything changes.
+  void again(const Config& used, ReloadNotes& notes, const Use& use) const {
+    const auto read = loaded();
+    if (!read) return notes.refused(read.error().message);
+    const auto next = reloaded(used, *read);
+    if (!next) return notes.refused(next.error().message);
+    if (std::ranges::any_of(next->changes, &KeyChange::now)) {
+      if (const Status taken = use(next->config); !taken) return notes.refused(taken.error().message);
+      set_log_level(next->config.log.level);
     }
-    if (next->changes.empty()) spdlog::info("configuration: read anew, nothing has changed");
-    if (!changed) return std::nullopt;
-    used_ = std::move(next->config);
-    set_log_level(used_.log.level);
-    return used_;
+    notes.taken(next->changes);
   }
 
  private:
-  std::nullopt_t keep(const std::string& faults) const {
-    std::istringstream lines(faults);
-    for (std::string line; std::getline(lines, line);)
-      spdlog::error("configuration: {}", line);
-    spdlog::error("configuration: not taken, the one before stays in use");
-    return std::nullopt;
+  // What a file system throws must not end what runs.
+  [[nodiscard]] Result<Config> loaded() const {
+    try {
+      return load_();
+    } catch (const std::exception& problem) {
+      return Error{problem.what()};
+    }
   }
 
-  Config used_;
-  LiveKeys live_;
-  Load load_;
+  const Load load_;
 };
 
 }  // namespace telehug

@@ -4,6 +4,7 @@
 #include <spdlog/spdlog.h>
 
 #include "service/control_socket.hpp"
+#include "service/log.hpp"
 
 namespace telehug {
 
@@ -30,7 +31,7 @@ DaemonPages::DaemonPages(const WebConfig& config, const DaemonPagesOptions& opti
                                             WebFiles({shared_pages(), options.files}), ask, clock);
     } catch (const std::runtime_error& problem) {
       problem_ = problem.what();
-      spdlog::error("{}", problem_);
+      log_about({.stage = "web"}, spdlog::level::err, problem_);
     }
   }
   control.on("open", [this](const Json&) { return open(); });

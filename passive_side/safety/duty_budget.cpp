@@ -40,7 +40,7 @@ double DutyBudget::most(Timestamp now) noexcept {
 double DutyBudget::used(Timestamp now) noexcept {
   if (!limited_) return 0;
   slide(now);
-  return used_s() / budget_s_;
+  return std::min(used_s() / budget_s_, 1.0);
 }
 
 double DutyBudget::used_s() const noexcept {

@@ -3,6 +3,10 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
+
+#include "config/key.hpp"
+
 namespace telehug {
 namespace {
 
@@ -30,12 +34,40 @@ TEST(AConfigurationReadAnew, ChangesNoLimitOfTheJacketWhileItRuns) {
   PassiveConfig used;
   used.safety.max_strength = 0.4;
   used.safety.max_celsius = 36;
-  const auto next = reloaded(used, PassiveConfig{}, {"log.level"});
+  const auto next = reloaded(used, PassiveConfig{});
   ASSERT_TRUE(next);
   EXPECT_EQ(next->config.safety.max_strength, 0.4);
   EXPECT_EQ(next->config.safety.max_celsius, 36);
   ASSERT_EQ(next->changes.size(), 2U);
   EXPECT_FALSE(next->changes[0].now || next->changes[1].now);
+}
+
+TEST(AConfigurationReadAnew, ChangesOfTheWearersSideTheQuietHoursAndTheLogAlone) {
+  PassiveConfig config;
+  std::vector<std::string> live;
+  for (const Key& key : keys_of(config))
+    if (is_live(key.path(), live_keys(Side::passive))) live.push_back(key.path());
+  EXPECT_THAT(live, testing::UnorderedElementsAre("consent.quiet_hours", "log.level"));
+}
+
+TEST(AConfigurationReadAnew, KnowsLiveKeysByTheirNamesAndSections) {
+  const LiveKeys live{"touch.", "log.level"};
+  EXPECT_TRUE(is_live("touch.up_after_ms", live));
+  EXPECT_TRUE(is_live("log.level", live));
+  for (const char* other : {"log.levels", "log.", "local_touch.uinput", "touch", "a.touch.b"})
+    EXPECT_FALSE(is_live(other, live)) << other;
+}
+
+// A key that no longer exists would promise a reload that does nothing.
+TEST(AConfigurationReadAnew, HasLiveKeysThatExist) {
+  const auto holds = [](Side side, const std::vector<Key>& keys) {
+    for (const std::string_view live : live_keys(side))
+      EXPECT_TRUE(std::ranges::any_of(keys, [&](const Key& key) { return is_live(key.path(), {live}); })) << live;
+  };
+  ActiveConfig active;
+  PassiveConfig passive;
+  holds(Side::active, keys_of(active));
+  holds(Side::passive, keys_of(passive));
 }
 
 TEST(AConfigurationReadAnew, IsNotTakenIfWhatIsLiveDoesNotFitWhatIsNot) {

@@ -3,9 +3,14 @@
 
 #include <gmock/gmock.h>
 
+#include <set>
+
+#include "service/journal_sink.hpp"
+
 namespace telehug {
 namespace {
 
+using testing::UnorderedElementsAre;
 using testing::internal::CaptureStderr;
 using testing::internal::GetCapturedStderr;
 
@@ -29,6 +34,69 @@ TEST(Log, CarriesTheTimeElsewhere) {
 TEST(Log, TakesAnUnknownLevelForInfo) {
   set_up_log("shouting", LogStyle::plain);
   EXPECT_EQ(spdlog::get_level(), spdlog::level::info);
+}
+
+// What the journal was sent, and what it says to it.
+std::vector<std::string> sent;
+int answer = 0;
+const LogFields* about = nullptr;
+
+class TheJournal : public testing::Test {
+ protected:
+  TheJournal() : logger("journal", std::make_shared<JournalSink>(send, [] { return about; })) {
+    sent.clear();
+    answer = 0;
+    about = nullptr;
+  }
+  static int send(const iovec* fields, int count) {
+    for (int i = 0; i < count; ++i)
+      sent.emplace_back(static_cast<const char*>(fields[i].iov_base), fields[i].iov_len);
+    return answer;
+  }
+  spdlog::logger logger;
+};
+
+TEST_F(TheJournal, HasWhatAMessageIsAboutAsFields) {
+  const std::string name = std::string("SYSLOG_IDENTIFIER=") + program_invocation_short_name;
+  const LogFields fields{.stage = "touch", .peer = "Mia", .contact = 0, .message_id = message_id::stopped};
+  about = &fields;
+  logger.warn("two\nlines");
+  EXPECT_THAT(sent,
+              UnorderedElementsAre("MESSAGE=two\nlines", "PRIORITY=4", name, "TELEHUG_STAGE=touch", "TELEHUG_PEER=Mia",
+                                   "TELEHUG_CONTACT=0", "MESSAGE_ID=" + std::string(message_id::stopped)));
+}
+
+TEST_F(TheJournal, HasNoFieldOfWhatAMessageIsNotAbout) {
+  const std::string name = std::string("SYSLOG_IDENTIFIER=") + program_invocation_short_name;
+  logger.info("plain");
+  EXPECT_THAT(sent, UnorderedElementsAre("MESSAGE=plain", "PRIORITY=6", name));
+  sent.clear();
+  logger.log(spdlog::source_loc{"a.cpp", 7, "f"}, spdlog::level::err, "where");
+  EXPECT_THAT(
+      sent, UnorderedElementsAre("MESSAGE=where", "PRIORITY=3", name, "CODE_FILE=a.cpp", "CODE_LINE=7", "CODE_FUNC=f"));
+}
+
+TEST_F(TheJournal, GivesStderrWhatItDoesNotTake) {
+  CaptureStderr();
+  answer = -ENOBUFS;
+  logger.error("no camera");
+  EXPECT_EQ(GetCapturedStderr(), "<3>no camera\n");
+}
+
+TEST(LogMessages, HaveAnIdEachThatIsOne) {
+  const std::vector<std::string_view> all{message_id::stopped,
+                                          message_id::resumed,
+                                          message_id::configuration_taken,
+                                          message_id::configuration_refused,
+                                          message_id::peer_connected,
+                                          message_id::peer_absent,
+                                          message_id::jacket_ready,
+                                          message_id::jacket_absent,
+                                          message_id::camera_open,
+                                          message_id::camera_lost};
+  EXPECT_EQ(std::set(all.begin(), all.end()).size(), all.size());
+  for (const std::string_view id : all)
+    EXPECT_TRUE(id.size() == 32 && id.find_first_not_of("0123456789abcdef") == std::string_view::npos) << id;
 }
 
 TEST(SayOnChange, LogsAStateOnceUntilItChanges) {
