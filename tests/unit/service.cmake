@@ -14,3 +14,8 @@ telehug_test(test_ctl KIND unit SUBJECT ops
   SOURCES unit/ctl/avrdude_output_test.cpp unit/ctl/fuses_test.cpp unit/ctl/run_program_test.cpp
           unit/ctl/status_text_test.cpp unit/ctl/watch_text_test.cpp
   DEPS telehug_ctl)
+
+telehug_test(test_cli KIND unit SUBJECT ops
+  SOURCES unit/cli/command_tree_test.cpp unit/cli/config_page_test.cpp unit/cli/exit_code_text_test.cpp
+          unit/cli/man_page_test.cpp
+  DEPS telehug_cli telehug_config telehug_manual CLI11::CLI11)
