@@ -49,6 +49,10 @@ const telehug::Program program{
             {"telehug pair grant --file request.txt > grant.txt", "on the wearer's PC"},
             {"telehug pair finish --file grant.txt", "on the parent's PC"},
             {"telehug pair renew Mum --file renewal.txt", "another year, by hand"},
+            {"telehug config check", "all faults of the configuration, each with file and line"},
+            {"telehug config check passive --system", "as the system's service reads it"},
+            {"telehug config show active", "every key, its value and where that comes from"},
+            {"telehug config diff", "only what is not as shipped"},
             {"telehug version", "of this program"},
         },
     .exits = {ExitCode::ok, ExitCode::internal, ExitCode::usage, ExitCode::config, ExitCode::device,
@@ -75,6 +79,7 @@ void add_commands(CLI::App& app, ExitCode& result) {
   telehug::add_jacket(app, result);
   telehug::add_open(app, result);
   telehug::add_pair(app, result);
+  telehug::add_config(app, result);
   telehug::add_version(app, result);
 }
 

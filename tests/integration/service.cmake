@@ -21,3 +21,8 @@ telehug_test(test_references KIND integration SUBJECT ops
   DEPS telehug_common)
 target_compile_definitions(test_references PRIVATE TELEHUG_MANUAL="${CMAKE_BINARY_DIR}/manual")
 add_dependencies(test_references telehug_references)
+
+telehug_test(test_config_command KIND integration SUBJECT ops
+  SOURCES integration/ctl/config_command_test.cpp
+  DEPS telehug_exit_codes nlohmann_json::nlohmann_json)
+add_dependencies(test_config_command telehug)

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 telehug_test(test_config KIND unit SUBJECT ops
-  SOURCES unit/config/faults_test.cpp unit/config/layers_test.cpp unit/config/locator_test.cpp unit/config/places_test.cpp
+  SOURCES unit/config/config_report_test.cpp unit/config/faults_test.cpp unit/config/layers_test.cpp unit/config/locator_test.cpp unit/config/places_test.cpp
           unit/config/quiet_hours_text_test.cpp
           unit/config/random_bytes_test.cpp unit/config/shipped_file_test.cpp
   DEPS telehug_config)
