@@ -53,6 +53,8 @@ const telehug::Program program{
             {"telehug config check passive --system", "as the system's service reads it"},
             {"telehug config show active", "every key, its value and where that comes from"},
             {"telehug config diff", "only what is not as shipped"},
+            {"telehug doctor", "what keeps telehug from working here, and what mends it"},
+            {"telehug doctor passive --json", "the wearer's side alone, for programs"},
             {"telehug version", "of this program"},
         },
     .exits = {ExitCode::ok, ExitCode::internal, ExitCode::usage, ExitCode::config, ExitCode::device,
@@ -80,6 +82,7 @@ void add_commands(CLI::App& app, ExitCode& result) {
   telehug::add_open(app, result);
   telehug::add_pair(app, result);
   telehug::add_config(app, result);
+  telehug::add_doctor(app, result);
   telehug::add_version(app, result);
 }
 

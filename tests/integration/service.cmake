@@ -26,3 +26,8 @@ telehug_test(test_config_command KIND integration SUBJECT ops
   SOURCES integration/ctl/config_command_test.cpp
   DEPS telehug_exit_codes nlohmann_json::nlohmann_json)
 add_dependencies(test_config_command telehug)
+
+telehug_test(test_doctor KIND integration SUBJECT ops
+  SOURCES integration/ctl/doctor_test.cpp
+  DEPS telehug_exit_codes nlohmann_json::nlohmann_json)
+add_dependencies(test_doctor telehug)
