@@ -20,6 +20,7 @@
 #include "daemon/pairing_desk.hpp"
 #include "daemon/stop_switch.hpp"
 #include "feedback/felt_feedback.hpp"
+#include "finger_feed.hpp"
 #include "live_touches.hpp"
 #include "local_touch/local_touch.hpp"
 #include "notify/desktop_notifier.hpp"
@@ -34,6 +35,7 @@
 #include "service/metrics.hpp"
 #include "service/notifier.hpp"
 #include "service/signals.hpp"
+#include "setup_run/setup_desk.hpp"
 #include "touched_box.hpp"
 #include "web/daemon_pages.hpp"
 
@@ -56,8 +58,11 @@ struct TouchThreadState {
   std::string camera_setup;
   FrameVerdict picture = FrameVerdict::good;
   std::shared_ptr<FaceWorker> face;
-  std::string detector;  // in use; empty: there is no calibration
-  std::string model;     // likewise
+  std::string detector;                                   // in use; empty: there is no calibration
+  std::string model;                                      // likewise
+  std::string calibrated;                                 // when: ISO 8601, UTC; likewise
+  std::optional<ScreenSize> screen;                       // likewise
+  std::shared_ptr<const std::vector<ScreenPoint>> reach;  // on it; null: not known
   bool knows_background = true;
   NobodyTouched nobody;
   std::uint64_t withheld = 0;  // touches that did not go out because of the sending switch
@@ -72,14 +77,14 @@ struct SeenHug {
 };
 
 // The parent's PC: one thread for the touch path, one for the face (FaceWorker), the calling one for everything that
-// may take its time. Touches go to every wearer who is connected. The camera is open only while one is, or this PC uses
-// the touches itself, and the screen is looked at only while one is.
+// may take its time. Touches go to every wearer who is connected. The camera is open only while one is, or this PC or
+// one of its pages uses the touches itself, and the screen is looked at only while one is.
 class ActiveDaemon {
  public:
   // Throws AlreadyRunning, std::runtime_error or std::invalid_argument with a sentence for a person.
-  // `feedback` may be null.
+  // `feedback` may be null. `setup`: for set-ups from the pages.
   ActiveDaemon(const ActiveConfig& config, Memberships memberships, std::unique_ptr<FrameSource> camera,
-               std::unique_ptr<FeltFeedback> feedback, const Clock& clock);
+               std::unique_ptr<FeltFeedback> feedback, SetupTools setup, const Clock& clock);
   ~ActiveDaemon();
   ActiveDaemon(const ActiveDaemon&) = delete;
   ActiveDaemon& operator=(const ActiveDaemon&) = delete;
@@ -98,7 +103,9 @@ class ActiveDaemon {
   void hear(ConnectedWearer& wearer, Timestamp now);
   void serve_hugs(Timestamp now);
   void adopt_rig();
+  void adopt_camera();
   [[nodiscard]] bool camera_wanted(Timestamp now);
+  [[nodiscard]] bool used_by_page() const;  // any thread
   void take_frame();
   void rest();
   void judge_sending(bool screen_known);
@@ -108,6 +115,7 @@ class ActiveDaemon {
   void tell_state(Timestamp now);
 
   // Housekeeping
+  void adopt_setup();
   void load_rig_if_changed();
   void tell_watchers();
   void tell_pages();
@@ -118,6 +126,7 @@ class ActiveDaemon {
   [[nodiscard]] bool follow_pairs();
   void keep_connections();
   [[nodiscard]] std::vector<ConnectionStatus> connections() const;
+  [[nodiscard]] std::string why_stopped() const;  // any thread; empty: nobody has
   void answer_commands();
   nlohmann::json order_face(const nlohmann::json& request);
   nlohmann::json order_hug(const nlohmann::json& request);
@@ -135,8 +144,7 @@ class ActiveDaemon {
   MetricsRegistry metrics_;
   Notifier notifier_;
 
-  std::unique_ptr<FrameSource> camera_;
-  const std::string camera_name_;
+  std::unique_ptr<FrameSource> camera_;  // of the touch thread
 
   // Touch thread
   TouchStream touches_;
@@ -162,7 +170,9 @@ class ActiveDaemon {
 
   // Between the threads
   LatestSlot<std::unique_ptr<Rig>> new_rig_;
+  LatestSlot<std::unique_ptr<FrameSource>> new_camera_;
   LocalTouch local_touch_;
+  FingerFeed fingers_;
   StopSwitch stop_;
   SendingSwitch sending_switch_;
   std::atomic<bool> ending_ = false;
@@ -181,7 +191,9 @@ class ActiveDaemon {
   std::vector<std::shared_ptr<FaceWorker>> face_workers_;
   std::uint32_t rigs_made_ = 0;
   mutable std::mutex words_mutex_;  // guards the sentences below, which the control thread reads
+  std::string camera_name_;
   std::string rig_problem_;
+  std::string setup_problem_;
   std::string face_note_;
   std::optional<SeenHug> last_hug_;
   std::string hug_problem_;  // why it was not seen on the desktop
@@ -205,7 +217,8 @@ class ActiveDaemon {
   SayOnChange say_hug_;
 
   Wearers wearers_;
-  std::optional<PairingDesk> pairing_;  // ends after what asks it
+  std::optional<PairingDesk> pairing_;  // these two end after what asks them
+  std::optional<SetupDesk> setup_;
   std::unique_ptr<ControlServer> control_;
   DaemonPages pages_;
   std::thread touch_thread_;

@@ -49,6 +49,8 @@ class ActivePipeline {
     return frame_check_.wants_whole_pictures() ? RowRange{} : rows_needed_;
   }
   [[nodiscard]] const ContactStates& contacts() const noexcept { return *contacts_; }
+  // Of the last frame, or when it was missing.
+  [[nodiscard]] Timestamp time() const noexcept { return newest_; }
   [[nodiscard]] const ScreenSize& screen() const noexcept { return screen_; }
   // Of the newest picture.
   [[nodiscard]] FrameVerdict verdict() const noexcept { return verdict_; }

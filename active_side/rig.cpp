@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "calibration/calibration_file.hpp"
+#include "calibration/rig_accuracy.hpp"
 #include "config/places.hpp"
 #include "detection/make_detector.hpp"
 #include "face/make_face_finder.hpp"
@@ -18,6 +19,13 @@ namespace {
 
 bool differs(double configured_mm, double calibrated_mm) {
   return configured_mm > 0 && std::abs(configured_mm - calibrated_mm) > 1;
+}
+
+std::shared_ptr<const std::vector<ScreenPoint>> reach_of(const Calibration& calibration) {
+  const TouchModel touch = calibration.model();
+  const auto* model = std::get_if<RigModel>(&touch);
+  if (model == nullptr) return nullptr;
+  return std::make_shared<const std::vector<ScreenPoint>>(reach(*model, calibration.screen).outline);
 }
 
 }  // namespace
@@ -76,8 +84,8 @@ Result<std::unique_ptr<Rig>> make_rig(const ActiveConfig& config, TouchStream& s
     options.tracker = tracker_options(*calibration, detector);
     options.tracker.up_after = std::chrono::milliseconds(config.touch.up_after_ms);
     return std::make_unique<Rig>(Rig{ActivePipeline(*calibration, std::move(detector), options, stream, clock, metrics),
-                                     std::move(face), config.touch.detector, calibration->model_name(), face_note,
-                                     note});
+                                     std::move(face), config.touch.detector, calibration->model_name(),
+                                     calibration->date, reach_of(*calibration), face_note, note});
   } catch (const std::invalid_argument& problem) {
     return Error{fmt::format("{}: {}; calibrate again", path.string(), problem.what())};
   }

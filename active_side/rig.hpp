@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "active_pipeline.hpp"
 #include "common/result.hpp"
@@ -15,8 +16,11 @@ namespace telehug {
 struct Rig {
   ActivePipeline pipeline;
   std::shared_ptr<FaceWorker> face;
-  std::string detector;   // "thesis" or "default"
-  std::string model;      // of the calibration, likewise
+  std::string detector;    // "thesis" or "default"
+  std::string model;       // of the calibration, likewise
+  std::string calibrated;  // when: ISO 8601, UTC
+  // Outline of the part of the screen on which the camera sees touches; null: the calibration does not tell.
+  std::shared_ptr<const std::vector<ScreenPoint>> reach;
   std::string face_note;  // why faces are not found as configured; may be empty
   std::string note;       // that, and what else works but could be better; may be empty
 };

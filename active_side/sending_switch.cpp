@@ -27,8 +27,9 @@ const char* name_of(SendingMode mode) {
   return "";
 }
 
-SendingVerdict judge_sending(SendingMode mode, bool only_in_front, const ScreenView& screen) {
+SendingVerdict judge_sending(SendingMode mode, bool only_in_front, bool used_here, const ScreenView& screen) {
   if (mode == SendingMode::off) return SendingVerdict::switched_off;
+  if (used_here) return SendingVerdict::used_here;
   if (screen.pins_window && !screen.in_front) return SendingVerdict::not_seen;
   if (screen.in_front) return *screen.in_front || !only_in_front ? SendingVerdict::sends : SendingVerdict::covered;
   return mode == SendingMode::on || !screen.live ? SendingVerdict::sends : SendingVerdict::never_pinned;

@@ -26,13 +26,15 @@ struct ScreenView {
 enum class SendingVerdict {
   sends,
   switched_off,
+  used_here,     // a page of this PC uses the fingers, such as one to draw on
   not_seen,      // the pinned window is not there, or not looked at
   covered,       // another window covers it
   never_pinned,  // no window is pinned, so that only `on` sends
 };
 
 // Do touches on the screen go out? So that cleaning it or using another program touches nobody.
-[[nodiscard]] SendingVerdict judge_sending(SendingMode mode, bool only_in_front, const ScreenView& screen);
+[[nodiscard]] SendingVerdict judge_sending(SendingMode mode, bool only_in_front, bool used_here,
+                                           const ScreenView& screen);
 
 // The user's own switch: set on the local socket, followed by the touch path. Any thread.
 class SendingSwitch {
@@ -48,8 +50,8 @@ class SendingSwitch {
   void toggle();
 
   [[nodiscard]] SendingMode mode() const noexcept { return mode_; }
-  [[nodiscard]] SendingVerdict judge(const ScreenView& screen) const {
-    return judge_sending(mode_, only_in_front_, screen);
+  [[nodiscard]] SendingVerdict judge(const ScreenView& screen, bool used_here) const {
+    return judge_sending(mode_, only_in_front_, used_here, screen);
   }
 
  private:

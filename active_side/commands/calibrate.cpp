@@ -32,6 +32,7 @@ struct Options {
   double width_mm = 0;
   double height_mm = 0;
   std::vector<std::string> points;
+  bool two_dots = false;
 };
 
 Result<CalibratedRig> from_recording(const std::filesystem::path& folder, const std::string& model,
@@ -83,6 +84,7 @@ Result<CalibratedRig> calibrate(const Options& options, const ActiveConfig& conf
   HandCalibration by_hand;
   by_hand.model = model;
   by_hand.screen = config.rig.screen;
+  by_hand.two_dots = options.two_dots;
   if (options.width_mm > 0) by_hand.screen.width_mm = options.width_mm;
   if (options.height_mm > 0) by_hand.screen.height_mm = options.height_mm;
   if (auto points = parse_points(options.points); points) {
@@ -93,7 +95,7 @@ Result<CalibratedRig> calibrate(const Options& options, const ActiveConfig& conf
   const SteadyClock clock;
   auto camera = make_frame_source(spec, capture, clock);
   if (!camera) return camera.error();
-  return calibrate_by_hand(**camera, by_hand, utc_now(), std::cin, std::cout);
+  return calibrate_by_hand(**camera, by_hand, utc_now(), clock, std::cout);
 }
 
 double largest_error_mm(const RigCalibration& rig) {
@@ -157,7 +159,7 @@ void add_calibrate(CLI::App& app, ExitCode& result) {
   CLI::App* command = app.add_subcommand("calibrate", "Learn where the camera stands, from touches of known points");
   add_config_options(*command, options->config);
   command->add_option("--source", options->source,
-                      "webcam (asks for the touches), replay:DIR, virtual or virtual:SEED");
+                      "webcam (leads through the touches), replay:DIR, virtual or virtual:SEED");
   command->add_option("--out", options->out, "The calibration file; else where `run` looks for it");
   command->add_option("--frames", options->frames, "replay: and virtual: which calibration pictures, e.g. 1,2")
       ->delimiter(',');
@@ -170,6 +172,7 @@ void add_calibrate(CLI::App& app, ExitCode& result) {
   command->add_option("--point", options->points, "webcam: a point to touch, in mm from the screen's top left: X,Y")
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  command->add_flag("--two-dots", options->two_dots, "webcam: touch two dots instead of nine");
   command->callback([options, &result] { result = run(*options); });
 }
 

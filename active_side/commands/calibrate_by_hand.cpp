@@ -1,193 +1,158 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "commands/calibrate_by_hand.hpp"
 
-#include <fmt/core.h>
+#include <fmt/format.h>
 
-#include <algorithm>
-#include <array>
 #include <cmath>
+#include <cstddef>
 #include <cstdio>
-#include <istream>
+#include <optional>
 #include <ostream>
-#include <string>
 #include <utility>
 
-#include "calibration/calibration_policy.hpp"
-#include "calibration/screen_border.hpp"
 #include "commands/calibration_pages.hpp"
-#include "detection/touch_calibration.hpp"
-#include "finger/thesis_detector.hpp"
-#include "pictures/median_picture.hpp"
-#include "touch/screen_points.hpp"
+#include "setup/calibration_session.hpp"
+#include "setup/dot_plan.hpp"
 
 namespace telehug {
 namespace {
 
-constexpr int frames_measured = 15;
-constexpr int least_frames_with_finger = 8;
-constexpr int frames_of_a_second = 30;
-constexpr int frames_per_picture = 2;  // of those that are kept in memory
+constexpr Duration longest_wait = 500ms;
+constexpr Duration longest_silence = 10s;
+constexpr Duration said_after = 1500ms;  // that an advice has held: a finger passes many states on its way
 
-Status ask(const std::string& what, std::istream& answers, std::ostream& instructions) {
-  instructions << what << "\nThen press Enter. " << std::flush;
-  std::string line;
-  if (std::getline(answers, line)) return Done{};
-  return Error{"calibrating the webcam asks for touches: run it in a terminal"};
-}
-
-// The next pictures, so that what the person has just done is on them.
-template <typename Use>
-Status read_frames(FrameSource& camera, int count, Use use) {
-  Frame frame;
-  int misses = 0;
-  for (int taken = 0; taken < count;) {
-    if (camera.read(frame, 500ms) == ReadOutcome::frame) {
-      use(frame.bgr);
-      ++taken;
-    } else if (++misses > count) {
-      const std::string why = camera.last_error();
-      return Error{fmt::format("{} delivers no pictures: {}", camera.name(), why.empty() ? "it is silent" : why)};
-    }
-  }
-  return Done{};
-}
-
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
-Result<MeasuredTouch> measure(FrameSource& camera, const BorderLine& border, const ScreenPoint& point) {
-  ThesisDetector detector(border, camera.size());
-  std::vector<double> lengths;
-  std::vector<double> columns;
-  const Status read = read_frames(camera, frames_measured, [&](const cv::Mat& bgr) {
-    for (const Finger& finger : detector.detect(bgr)) {
-      lengths.push_back(finger.length_px);
-      columns.push_back(finger.tip.u_px);
-    }
-  });
-  if (!read) return read.error();
-  if (lengths.size() < least_frames_with_finger) {
-    return Error{
-        fmt::format("a finger was seen in only {} of {} pictures: put it flat on the dot, from below, with the "
-                    "other fingers folded away, and begin again",
-                    lengths.size(), frames_measured)};
-  }
-  return MeasuredTouch{point, median(lengths), column_from_centre_px(median(columns), camera.size())};
+SessionSettings session_settings(const FrameSource& camera, const HandCalibration& wanted, const std::string& date) {
+  return {wanted.screen, wanted.model == "thesis", wanted.two_dots, wanted.points, false, camera.name(), date};
 }
 
 // The conversation with the person at the screen.
 class HandCalibrator {
  public:
-  HandCalibrator(FrameSource& camera, const ScreenSize& screen, CalibrationPages pages, std::vector<ScreenPoint> points,
-                 std::istream& answers, std::ostream& instructions)
-      : camera_(camera), pages_(pages), points_(std::move(points)), answers_(answers), instructions_(instructions) {
-    seen_.screen = screen;
-  }
+  HandCalibrator(FrameSource& camera, const HandCalibration& wanted, const std::string& date, const Clock& clock,
+                 std::ostream& instructions)
+      : camera_(camera),
+        clock_(clock),
+        instructions_(instructions),
+        session_(session_settings(camera, wanted, date)),
+        pages_{wanted.model != "thesis"} {}
 
-  Status look_at_empty_rig() {
-    auto triangle = picture_when(
-        fmt::format("Show {} on the whole screen, with any picture viewer. Take your hands, and all that does not stay "
-                    "there, away from the screen and the desk before it.",
-                    CalibrationPages::triangle()));
-    if (!triangle) return triangle.error();
-    seen_.triangle = *std::move(triangle);
-    auto empty =
-        picture_when(fmt::format("Show the next one, {}: all black. Hands still away.", CalibrationPages::black()));
-    if (!empty) return empty.error();
-    seen_.empty = *std::move(empty);
-    if (!pages_.with_marks) return Done{};
-    auto marks =
-        picture_when(fmt::format("Show the next one, {}: many dots. Hands still away.", CalibrationPages::marks()));
-    if (!marks) return marks.error();
-    seen_.marks = *std::move(marks);
-    return Done{};
-  }
-  [[nodiscard]] const CalibrationPictures& seen() const noexcept { return seen_; }
-
-  Status ask_for_touch(std::size_t i) {
-    return ask(fmt::format("Show {} and lay a finger on the dot, from below; leave it there.", pages_.dot(i)), answers_,
-               instructions_);
-  }
-
-  Result<ThesisCalibration> thesis(const BorderLine& border) {
-    std::array<MeasuredTouch, 2> touches;
-    for (std::size_t i = 0; i < touches.size(); ++i) {
-      if (auto ready = ask_for_touch(i); !ready) return ready.error();
-      auto touch = measure(camera_, border, points_[i]);
-      if (!touch) return Error{fmt::format("touch {}: {}", i + 1, touch.error().message)};
-      touches[i] = *touch;
-    }
-    const auto model = ThesisTouchModel::solve(seen_.screen, touches[0], touches[1]);
-    if (!model) return model.error();
-    return ThesisCalibration{touches, *model};
-  }
-
-  // Touches that do not fit are asked for again, once each; what then is still wrong is for the caller to judge.
-  Result<RigCalibration> rig() {
-    for (std::size_t i = 0; i < points_.size(); ++i) {
-      seen_.touches.push_back({{}, points_[i]});
-      if (Status taken = take_touch(i); !taken) return taken.error();
-    }
-    for (std::vector<bool> repeated(points_.size());;) {
-      auto solved = calibrate_with_pictures(seen_);
-      const auto again = solved ? touch_to_repeat(*solved, repeated) : std::nullopt;
-      if (!again) return solved;
-      repeated[*again] = true;
-      instructions_ << fmt::format("The touch of dot {} was not seen, or does not fit the others. ", *again + 1);
-      if (Status taken = take_touch(*again); !taken) return taken.error();
+  Result<CalibratedRig> lead() {
+    if (const Status written = pages_.write(session_.screen(), placeholders()); !written) return written.error();
+    seen_ = clock_.now();
+    for (;;) {
+      if (const Status told = tell(); !told) return told.error();
+      const SetupStep step = session_.state().step;
+      if (step == SetupStep::cancelled) return Error{text_of(session_.state().advice)};
+      if (step == SetupStep::solved && !repeat_one()) return session_.calibrated();
+      if (const Status looked = look(); !looked) return looked.error();
     }
   }
 
  private:
-  // The first that was not used and not repeated yet, else the one that a bad calibration suffers from most.
-  [[nodiscard]] std::optional<std::size_t> touch_to_repeat(const RigCalibration& solved,
-                                                           const std::vector<bool>& repeated) const {
-    const std::vector<PointObservation>& seen = solved.observations.touches;
-    for (std::size_t i = 0; i < points_.size(); ++i) {
-      const bool used = std::any_of(seen.begin(), seen.end(), [&](const PointObservation& touch) {
-        return touch.screen == points_[i] && !touch.left_out;
-      });
-      if (!used && !repeated[i]) return i;
-    }
-    const CalibrationVerdict verdict = judge_calibration(solved, points_);
-    if (verdict.good() || !verdict.repeat || seen.size() != points_.size() || repeated[*verdict.repeat])
-      return std::nullopt;
-    return verdict.repeat;
+  // Pages of dots that are not planned yet, so that a picture viewer knows all files from the beginning.
+  [[nodiscard]] std::vector<ScreenPoint> placeholders() const {
+    return std::vector<ScreenPoint>(full_calibration_dots,
+                                    {session_.screen().width_mm / 2, session_.screen().height_mm * 0.8});
   }
 
-  Status take_touch(std::size_t i) {
-    if (Status ready = ask_for_touch(i); !ready) return ready;
-    auto picture = picture_of_a_second();
-    if (!picture) return picture.error();
-    seen_.touches[i].bgr = *std::move(picture);
+  Status look() {
+    const ReadOutcome outcome = camera_.read(frame_, longest_wait);
+    const Timestamp now = clock_.now();
+    if (outcome == ReadOutcome::frame) {
+      seen_ = now;
+      session_.look(frame_.bgr, now);
+      return Done{};
+    }
+    session_.no_picture(now);
+    if (now - seen_ < longest_silence && outcome != ReadOutcome::ended) return Done{};
+    const std::string why = camera_.last_error();
+    return Error{fmt::format("{} delivers no pictures: {}", camera_.name(), why.empty() ? "it is silent" : why)};
+  }
+
+  // What is new: another page, a touch that was taken, an advice that holds.
+  Status tell() {
+    const SetupState& state = session_.state();
+    if (state.taken != taken_) {
+      taken_ = state.taken;
+      instructions_ << "\aTaken.\n";
+    }
+    if (state.page == SetupPage::dot && state.dots != dots_written_) {
+      if (Status written = pages_.write(session_.screen(), state.dots); !written) return written;
+      dots_written_ = state.dots;
+      said_page_.clear();
+    }
+    if (const std::string page = page_text(state); page != said_page_) {
+      said_page_ = page;
+      if (!page.empty()) instructions_ << page << std::endl;
+      said_advice_ = SetupAdvice::none;
+    }
+    if (state.advice != advice_) {
+      advice_ = state.advice;
+      advice_since_ = clock_.now();
+    }
+    const bool holds = clock_.now() - advice_since_ >= said_after;
+    if (holds && advice_ != said_advice_ && *text_of(advice_) != '\0') {
+      said_advice_ = advice_;
+      instructions_ << "  " << text_of(advice_) << off_text(state) << std::endl;
+    }
     return Done{};
   }
 
-  Result<cv::Mat> picture_when(const std::string& what) {
-    if (Status ready = ask(what, answers_, instructions_); !ready) return ready.error();
-    return picture_of_a_second();
+  [[nodiscard]] std::string page_text(const SetupState& state) const {
+    switch (state.page) {
+      case SetupPage::triangle:
+        return fmt::format(
+            "Show {} on the whole screen, with any picture viewer. Take your hands, and all that does "
+            "not stay there, away from the screen and the desk before it.",
+            CalibrationPages::triangle());
+      case SetupPage::black:
+        return fmt::format("Show the next one, {}: all black. Hands still away.", CalibrationPages::black());
+      case SetupPage::marks:
+        return fmt::format("Show the next one, {}: many dots. Hands still away.", CalibrationPages::marks());
+      case SetupPage::dot:
+        return fmt::format("Show {} and lay a finger on the dot, from below; leave it there until it beeps.",
+                           pages_.dot(state.dot));
+      case SetupPage::none:
+        break;
+    }
+    return "";
   }
 
-  // What the camera sees in a second, without what moves or flickers.
-  Result<cv::Mat> picture_of_a_second() {
-    std::vector<cv::Mat> pictures;
-    int taken = 0;
-    const Status read = read_frames(camera_, frames_of_a_second, [&](const cv::Mat& bgr) {
-      if (taken++ % frames_per_picture == 0) pictures.push_back(bgr.clone());
-    });
-    if (!read) return read.error();
-    return median_picture(pictures);
+  [[nodiscard]] static std::string off_text(const SetupState& state) {
+    if (state.advice != SetupAdvice::finger_beside_dot || !state.off_mm) return "";
+    const ScreenPoint& off = *state.off_mm;
+    return fmt::format(" ({:.0f} mm to the {}, {:.0f} mm {})", std::abs(off.x_mm), off.x_mm > 0 ? "right" : "left",
+                       std::abs(off.y_mm), off.y_mm > 0 ? "below" : "above");
+  }
+
+  // Touches that do not fit are asked for again, once each; what then is still wrong is for the caller to judge.
+  bool repeat_one() {
+    const SetupResult& result = *session_.state().result;
+    repeated_.resize(result.dots.size());
+    for (const std::size_t dot : result.repeat) {
+      if (repeated_[dot]) continue;
+      repeated_[dot] = true;
+      said_page_.clear();
+      instructions_ << fmt::format("The touch of dot {} was not seen, or does not fit the others. ", dot + 1);
+      return session_.repeat(dot);
+    }
+    return false;
   }
 
   FrameSource& camera_;
-  CalibrationPages pages_;
-  std::vector<ScreenPoint> points_;
-  std::istream& answers_;
+  const Clock& clock_;
   std::ostream& instructions_;
-  CalibrationPictures seen_;
+  CalibrationSession session_;
+  CalibrationPages pages_;
+  Frame frame_;
+  Timestamp seen_;  // the last picture
+  std::size_t taken_ = 0;
+  std::string said_page_;
+  std::vector<ScreenPoint> dots_written_;
+  SetupAdvice advice_ = SetupAdvice::none;
+  SetupAdvice said_advice_ = SetupAdvice::none;
+  Timestamp advice_since_;
+  std::vector<bool> repeated_;
 };
 
 }  // namespace
@@ -207,46 +172,15 @@ Result<std::vector<ScreenPoint>> parse_points(const std::vector<std::string>& te
   return points;
 }
 
-std::vector<ScreenPoint> thesis_points(const ScreenSize& screen) {
-  const double middle = screen.width_mm / 2;
-  return {{middle, screen.height_mm * 100 / 300}, {middle + 30, screen.height_mm * 220 / 300}};
-}
-
-std::vector<ScreenPoint> default_points(const ScreenSize& screen) {
-  std::vector<ScreenPoint> points;
-  for (const auto& [x, y] : {std::pair{0.5, 0.66}, {0.58, 0.86}, {0.22, 0.75}, {0.78, 0.75}, {0.34, 0.93}})
-    points.push_back({x * screen.width_mm, y * screen.height_mm});
-  return points;
-}
-
 Result<CalibratedRig> calibrate_by_hand(FrameSource& camera, const HandCalibration& wanted, const std::string& date,
-                                        std::istream& answers, std::ostream& instructions) {
-  const ScreenSize& screen = wanted.screen;
-  const bool thesis = wanted.model == "thesis";
-  if (!(screen.width_mm > 0) || !(screen.height_mm > 0)) {
+                                        const Clock& clock, std::ostream& instructions) {
+  if (!(wanted.screen.width_mm > 0) || !(wanted.screen.height_mm > 0)) {
     return Error{"say how large the visible screen is: --width-mm and --height-mm, or [rig] in the configuration"};
   }
-  std::vector<ScreenPoint> points = wanted.points;
-  if (points.empty()) points = thesis ? thesis_points(screen) : default_points(screen);
-  if (thesis && points.size() != 2) return Error{"the thesis' model is calibrated with two touches: give two --point"};
+  if (wanted.model == "thesis" && !wanted.points.empty() && wanted.points.size() != 2)
+    return Error{"the thesis' model is calibrated with two touches: give two --point"};
   if (const Status opened = camera.open(); !opened) return opened.error();
-  const CalibrationPages pages{!thesis};
-  if (const Status written = pages.write(screen, points); !written) return written.error();
-
-  HandCalibrator calibrator(camera, screen, pages, points, answers, instructions);
-  if (const Status looked = calibrator.look_at_empty_rig(); !looked) return looked.error();
-  const CalibrationPictures& seen = calibrator.seen();
-  if (thesis) {
-    const auto border = find_screen_border(*seen.triangle, BorderChoice::triangle);
-    if (!border) return border.error();
-    const auto solved = calibrator.thesis(border->line);
-    if (!solved) return solved.error();
-    return CalibratedRig{{camera.name(), date, camera.size(), screen, border->line, *solved}, seen.empty};
-  }
-  const auto solved = calibrator.rig();
-  if (!solved) return solved.error();
-  const BorderLine edge = border_line(solved->solution.model.camera, screen);
-  return CalibratedRig{{camera.name(), date, camera.size(), screen, edge, *solved}, seen.empty};
+  return HandCalibrator(camera, wanted, date, clock, instructions).lead();
 }
 
 }  // namespace telehug

@@ -22,12 +22,16 @@ constexpr double told_apart_px = 45;
 constexpr std::size_t most_spots = 4;  // with one dot shown: itself, mirror images and a finger's light
 constexpr double left_mm = 15;         // a finger farther from the last dot's place has left it
 constexpr int frames_of_leaving = 3;   // or one that is not seen for so long
-constexpr Duration short_gap = 300ms;  // in which a hand is not seen, but there
-// Rules for what the net does not see, or misplaces.
-constexpr Duration patience = 6s;
-constexpr Duration covered_for = 1s;
-constexpr double near_dot_mm = 25;
-constexpr double covered_change = 0.25;  // of the dot's light
+// Of a dot that is covered by what the net takes for no finger, or places badly.
+constexpr Duration patience = 4s;
+constexpr Duration short_gap = 70ms;  // two frames, in which it may look different: a hand that shakes comes back later
+constexpr double covered_change =
+    0.15;  // of how the dot looks; chosen: a finger that was not seen changed its light by 23 %
+constexpr double moved_change = 0.12;
+constexpr double near_dot_mm = 25;      // a finger that is seen farther away covers nothing
+constexpr int frames_until_seen = 8;    // after which the screen shows the dot and the camera has seen it
+constexpr int frames_of_reference = 6;  // in which nobody reaches it yet
+constexpr int frames_a_camera = 90;     // that a camera which may be the wrong one is given
 constexpr Duration moving = 200ms;
 
 double apart(const ScreenPoint& a, const ScreenPoint& b) {
@@ -86,8 +90,9 @@ void DotTouches::begin_dot() {
   dot_ = static_cast<std::size_t>(next - touches_.begin());
   rest_.forget();
   still_.forget();
-  hand_since_.reset();
-  uncovered_light_.reset();
+  dot_frames_ = 0;
+  free_look_.release();
+  covered_since_.reset();
 }
 
 bool DotTouches::all_taken() const noexcept {
@@ -154,8 +159,15 @@ bool DotTouches::check_camera(const cv::Mat& upright) {
       other_cameras_.push_back(std::move(other));
   }
   const auto right = std::find_if(other_cameras_.begin(), other_cameras_.end(), sees);
-  if (right == other_cameras_.end()) return false;
-  std::swap(*right, *camera_);
+  // Without a triangle this camera may be wrong by a column of marks, and the dot where the right one sees nothing.
+  const bool try_next = !seen_.border.vertex && !other_cameras_.empty() && checks_ >= frames_a_camera;
+  if (right == other_cameras_.end() && !try_next) return false;
+  if (right == other_cameras_.end()) {
+    std::rotate(other_cameras_.begin(), other_cameras_.begin() + 1, other_cameras_.end());
+    std::swap(other_cameras_.back(), *camera_);
+  } else {
+    std::swap(*right, *camera_);
+  }
   checks_ = 0;
   if (order_.empty()) {
     watch_with(RigCalibration(*camera_));
@@ -165,33 +177,47 @@ bool DotTouches::check_camera(const cv::Mat& upright) {
   return false;
 }
 
-double DotTouches::dot_light(const cv::Mat& upright) const {
+cv::Mat DotTouches::about_dot(const cv::Mat& upright) const {
+  constexpr double half_mm = 9;
+  constexpr int cells = 6;
   const RigCamera& camera = camera_->solution.model.camera;
   const ScreenPoint& dot = dots_[dot_];
-  const double half_mm = calibration_dot_mm / 2;
+  cv::Mat look = cv::Mat::zeros(cells, cells, CV_32FC3);
   const auto a = camera.project(ScreenPoint{dot.x_mm - half_mm, dot.y_mm - half_mm});
   const auto b = camera.project(ScreenPoint{dot.x_mm + half_mm, dot.y_mm + half_mm});
-  if (!a || !b) return 0;
+  if (!a || !b) return look;
   const cv::Rect2d box(cv::Point2d(a->u_px, a->v_px), cv::Point2d(b->u_px, b->v_px));
   const cv::Rect part = cv::Rect(box) & cv::Rect(0, 0, upright.cols, upright.rows);
-  if (part.empty()) return 0;
-  const cv::Scalar mean = cv::mean(upright(part));
-  return (mean[0] + mean[1] + mean[2]) / 3;
+  if (part.empty()) return look;
+  cv::Mat small;
+  cv::resize(upright(part), small, {cells, cells}, 0, 0, cv::INTER_AREA);
+  const cv::Scalar mean = cv::mean(upright);
+  small.convertTo(look, CV_32F, 1 / (mean[0] + mean[1] + mean[2] + 1));
+  return look;
 }
 
-bool DotTouches::right_after_all(const cv::Mat& upright, const TouchView& view, Timestamp now) {
-  if (view.hand_there) {
-    if (!hand_since_) hand_since_ = now;
-    hand_seen_ = now;
-  } else if (hand_since_ && now - hand_seen_ > short_gap) {
-    hand_since_.reset();
+bool DotTouches::covered_for_long(const cv::Mat& upright, const TouchView& view, Timestamp now) {
+  if (!camera_ || ++dot_frames_ <= frames_until_seen) return false;
+  const cv::Mat look = about_dot(upright);
+  if (dot_frames_ <= frames_until_seen + frames_of_reference) {
+    free_look_ = free_look_.empty() ? look.clone() : cv::Mat(free_look_ + look);
+    return false;
   }
-  if (!camera_) return false;
-  if (!hand_since_) uncovered_light_ = dot_light(upright);
-  if (!hand_since_ || now - *hand_since_ < patience) return false;
-  if (rest_.rests()) return apart(*rest_.place(), dots_[dot_]) <= near_dot_mm;
-  if (view.finger || !uncovered_light_ || still_.still_for() < covered_for) return false;
-  return std::abs(dot_light(upright) - *uncovered_light_) > covered_change * *uncovered_light_;
+  const auto change = [&](const cv::Mat& before) {
+    return cv::norm(look, before, cv::NORM_L1) / (cv::norm(before, cv::NORM_L1) + 1e-6);
+  };
+  const bool covered = change(free_look_ / frames_of_reference) > covered_change;
+  if (covered && covered_since_ && change(covered_look_) < moved_change) {
+    covered_seen_ = now;
+    const bool elsewhere = view.finger && apart(*view.finger, dots_[dot_]) > near_dot_mm;
+    return now - *covered_since_ >= patience && !elsewhere;
+  }
+  if (covered_since_ && now - covered_seen_ <= short_gap) return false;
+  covered_since_.reset();
+  if (!covered) return false;
+  covered_since_ = covered_seen_ = now;
+  covered_look_ = look;
+  return false;
 }
 
 bool DotTouches::take() {
@@ -251,7 +277,7 @@ bool DotTouches::look(const cv::Mat& bgr, Timestamp now, SetupState& state) {
   const auto place = rest_.place();
   const bool on_dot = place && (!camera_ || apart(*place, dots_[dot_]) <= on_dot_mm);
   if (camera_ && place) state.off_mm = ScreenPoint{place->x_mm - dots_[dot_].x_mm, place->y_mm - dots_[dot_].y_mm};
-  const bool after_all = right_after_all(upright, view, now);
+  const bool after_all = covered_for_long(upright, view, now);
   advise(view, on_dot, state);
   if (last_place_ || !((rest_.rests() && on_dot) || after_all)) return false;
   if (!take()) {

@@ -18,8 +18,8 @@
 
 namespace telehug {
 
-// A finger this near to its dot is on it: the tip net misplaces one on a lit dot by 0 to 6 mm (once in 200 touches of
-// random rigs by more than 8).
+// A finger this near to its dot is on it: of the touches in finger_rest.hpp the tip net misplaced two by more than 8
+// mm.
 inline constexpr double on_dot_mm = 10;
 
 struct DotSettings {
@@ -62,10 +62,11 @@ class DotTouches {
   void begin_dot();
   // Whether the dot is seen where the camera should see it; otherwise another camera may be the right one.
   bool check_camera(const cv::Mat& upright);
-  [[nodiscard]] double dot_light(const cv::Mat& upright) const;
-  // After a long time what can't be seen to be wrong is right: the dot is covered by something that the net takes for
-  // no finger, or places badly.
-  [[nodiscard]] bool right_after_all(const cv::Mat& upright, const TouchView& view, Timestamp now);
+  // How the dot and what is beside it look, in a few fields, compared with the whole picture's mean, so that the
+  // camera's exposure is in both.
+  [[nodiscard]] cv::Mat about_dot(const cv::Mat& upright) const;
+  // Something has covered the dot alike for so long that it is a finger, whatever the net says.
+  [[nodiscard]] bool covered_for_long(const cv::Mat& upright, const TouchView& view, Timestamp now);
   bool take();
   void advise(const TouchView& view, bool on_dot, SetupState& state) const;
 
@@ -86,9 +87,11 @@ class DotTouches {
   StillPicture still_;
   std::optional<ScreenPoint> last_place_;  // where the last one was taken: the finger has not left it yet
   int frames_without_finger_ = 0;
-  std::optional<Timestamp> hand_since_;
-  Timestamp hand_seen_;
-  std::optional<double> uncovered_light_;  // of this dot, with nobody there
+  int dot_frames_ = 0;  // since this dot is shown
+  cv::Mat free_look_;   // before anybody reached this dot; the sum of some
+  cv::Mat covered_look_;
+  std::optional<Timestamp> covered_since_;
+  Timestamp covered_seen_;
 };
 
 }  // namespace telehug

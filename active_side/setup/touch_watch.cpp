@@ -10,8 +10,8 @@
 namespace telehug {
 namespace {
 
-// Of the strip before the screen's edge: a finger alone covers 3 % of what a camera sees of it and its hand more; noise
-// and the light of a dot change less than 2 %.
+// Of the strip before the screen's edge. A guess between a finger with its hand and noise: in noisy pictures less is
+// unchanged with nobody there, so nothing is taken because of it.
 constexpr double unchanged_with_nobody = 0.96;
 
 AnyDetector default_detector(const Calibration& calibration, const cv::Mat& empty) {

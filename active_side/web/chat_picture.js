@@ -112,18 +112,30 @@ export function showPlaces(places) {
 
 const isFelt = (contact) => contact.answers.some((answer) => answer.outcome === "driven");
 
+function showFingers(group) {
+  while (group.children.length > contacts.length) group.lastChild.remove();
+  while (group.children.length < contacts.length) group.append(shape("circle", {class: "finger", r: 0.06}));
+  contacts.forEach((contact, i) => {
+    group.children[i].setAttribute("cx", Math.round((mirrored ? -contact.x_fh : contact.x_fh) * UNIT));
+    group.children[i].setAttribute("cy", Math.round(contact.y_fh * UNIT));
+  });
+}
+
+function showBox(group, fingers) {
+  const on = contacts.filter((contact) => contact.box === Number(group.dataset.box));
+  const felt = on.some(isFelt);
+  const looks = on.length === 0 ? "box" : felt ? "box touched felt" : "box touched";
+  if (group.getAttribute("class") === looks) return;
+  group.setAttribute("class", looks);
+  const number = group.querySelector("text");
+  if (number) number.textContent = felt ? `${group.dataset.box} ✓` : group.dataset.box;
+  if (on.length > 0) group.parentNode.insertBefore(group, fingers);  // its outline lies above its neighbours'
+}
+
 // Those of the topic "touch".
 export function showContacts(newest) {
   contacts = newest;
   const fingers = place.querySelector(".fingers");
-  for (const group of place.querySelectorAll("[data-box]")) {
-    const on = contacts.filter((contact) => contact.box === Number(group.dataset.box));
-    const felt = on.some(isFelt);
-    group.setAttribute("class", on.length === 0 ? "box" : felt ? "box touched felt" : "box touched");
-    const number = group.querySelector("text");
-    if (number) number.textContent = felt ? `${group.dataset.box} ✓` : group.dataset.box;
-    if (on.length > 0) group.parentNode.insertBefore(group, fingers);  // its outline lies above its neighbours'
-  }
-  fingers?.replaceChildren(...contacts.map((contact) => shape(
-      "circle", {class: "finger", cx: mirrored ? -contact.x_fh : contact.x_fh, cy: contact.y_fh, r: 0.06})));
+  for (const group of place.querySelectorAll("[data-box]")) showBox(group, fingers);
+  if (fingers) showFingers(fingers);
 }

@@ -36,8 +36,10 @@ function lead(step, pages) {
   location.assign(step.page);
 }
 
-function showLinks(pages) {
-  for (const link of document.querySelectorAll("#pages a")) link.hidden = !isThere(link.getAttribute("href"), pages);
+// Some are of use only once there is a calibration.
+function showLinks(pages, calibrated) {
+  for (const link of document.querySelectorAll("#pages a"))
+    link.hidden = !isThere(link.getAttribute("href"), pages) || (link.className === "calibrated" && !calibrated);
 }
 
 // Leads to the page of the first step that is left. `begins`: the page has just been opened.
@@ -45,7 +47,7 @@ export function showFirstSteps(status, begins) {
   const pages = status.web.pages;
   const all = steps(status);
   const next = all.find((step) => !step.done);
-  showLinks(pages);
+  showLinks(pages, status.calibrated);
   part.hidden = next === undefined;
   const shown = JSON.stringify([document.documentElement.lang, all.map((step) => step.done)]);
   if (list.dataset.shown !== shown) {

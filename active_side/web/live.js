@@ -7,7 +7,8 @@ import {showLatency} from "/latency.js";
 import {nearMiss} from "/near_miss.js";
 
 // Why touches don't go out, as the status says it.
-const WHY_NOT = {"switched off": "why.off", "the pinned window is not seen": "why.not_seen",
+const WHY_NOT = {"switched off": "why.off", "a page uses the fingers": "why.used_here",
+                 "the pinned window is not seen": "why.not_seen",
                  "another window covers the pinned one": "why.covered", "no window is pinned": "why.never_pinned",
                  "not calibrated": "why.not_calibrated"};
 const NEAR_MS = 5000;

@@ -193,13 +193,15 @@ void WebConnection::written(const boost::system::error_code& problem) {
 }
 
 void WebConnection::begin_stream(const WebStream& stream) {
-  if (!host_.takes_stream()) {
+  if (!host_.takes_stream(stream)) {
     keep_alive_ = false;
     answer(WebSite::refusal(503, "too many pages are open: close one"));
     return;
   }
   host_.answered(200);
   streaming_ = true;
+  boost::system::error_code problem;
+  ignore(socket_.set_option(Socket::send_buffer_size(host_.options().stream_buffer_bytes), problem));
   for (const std::string& topic : stream.topics)
     followed_[topic] = 0;
   parser_.reset();
@@ -210,10 +212,10 @@ void WebConnection::begin_stream(const WebStream& stream) {
   stream_serializer_.emplace(*stream_head_);
   arm(host_.options().write_timeout);
   http::async_write_header(socket_, *stream_serializer_,
-                           [self = shared_from_this()](const boost::system::error_code& problem, std::size_t) {
+                           [self = shared_from_this()](const boost::system::error_code& unwritten, std::size_t) {
                              if (self->closed_) return;
                              self->timer_.cancel();
-                             if (problem) {
+                             if (unwritten) {
                                self->close();
                                return;
                              }

@@ -33,7 +33,7 @@ class WebConnection : public std::enable_shared_from_this<WebConnection> {
     [[nodiscard]] virtual WebReply reply(const WebRequest& request) = 0;
     virtual void ask(nlohmann::json request, const std::shared_ptr<WebConnection>& connection) = 0;
     [[nodiscard]] virtual const LiveTopics& live() const = 0;
-    [[nodiscard]] virtual bool takes_stream() = 0;
+    [[nodiscard]] virtual bool takes_stream(const WebStream& stream) = 0;
     virtual void answered(unsigned status) = 0;
     virtual void closed(const std::shared_ptr<WebConnection>& connection) = 0;
   };
@@ -50,6 +50,8 @@ class WebConnection : public std::enable_shared_from_this<WebConnection> {
 
   [[nodiscard]] bool known() const noexcept { return known_; }
   [[nodiscard]] bool streaming() const noexcept { return streaming_; }
+  // Topics, and the version of each that was last written.
+  [[nodiscard]] const std::map<std::string, std::uint64_t>& followed() const noexcept { return followed_; }
   [[nodiscard]] std::uint64_t number() const noexcept { return number_; }  // grows with each connection
 
  private:
@@ -78,8 +80,8 @@ class WebConnection : public std::enable_shared_from_this<WebConnection> {
   bool streaming_ = false;
   std::optional<boost::beast::http::response<boost::beast::http::empty_body>> stream_head_;
   std::optional<boost::beast::http::response_serializer<boost::beast::http::empty_body>> stream_serializer_;
-  std::map<std::string, std::uint64_t> followed_;  // and the version that was last written
-  std::shared_ptr<const std::string> writing_;     // an event
+  std::map<std::string, std::uint64_t> followed_;
+  std::shared_ptr<const std::string> writing_;  // an event
   bool stream_begun_ = false;
   char ignored_ = 0;
 };

@@ -7,6 +7,7 @@
 #include <atomic>
 #include <boost/asio/io_context.hpp>
 #include <boost/asio/post.hpp>
+#include <map>
 #include <set>
 #include <stdexcept>
 #include <thread>
@@ -26,6 +27,16 @@ std::vector<std::string> list_of(const std::set<std::string>& names) {
   return {names.begin(), names.end()};
 }
 
+// How many follow each topic; its keys never change.
+using Followers = std::map<std::string, std::atomic<std::size_t>>;
+
+Followers nobody_yet(const std::set<std::string>& topics) {
+  Followers followers;
+  for (const std::string& topic : topics)
+    followers[topic] = 0;
+  return followers;
+}
+
 }  // namespace
 
 class WebServer::Service final : public WebConnection::Host, public std::enable_shared_from_this<WebServer::Service> {
@@ -33,6 +44,7 @@ class WebServer::Service final : public WebConnection::Host, public std::enable_
   Service(const WebServerOptions& options, WebSiteOptions site, WebFiles files, Ask ask, const Clock& clock)
       : options_(options),
         live_(list_of(site.topics)),
+        followers_(nobody_yet(site.topics)),
         site_(std::move(site), std::move(files)),
         ask_(std::move(ask)),
         clock_(clock),
@@ -82,6 +94,7 @@ class WebServer::Service final : public WebConnection::Host, public std::enable_
   }
 
   [[nodiscard]] bool has_followers() const noexcept { return streams_ > 0; }
+  [[nodiscard]] bool has_followers(const std::string& topic) const { return followers_.at(topic) > 0; }
   [[nodiscard]] WebServerStats stats() const noexcept {
     return {open_, streams_, requests_, refused_requests_, refused_connections_};
   }
@@ -103,9 +116,11 @@ class WebServer::Service final : public WebConnection::Host, public std::enable_
     });
   }
 
-  [[nodiscard]] bool takes_stream() override {
+  [[nodiscard]] bool takes_stream(const WebStream& stream) override {
     if (streams_ >= options_.most_streams) return false;
     ++streams_;
+    for (const std::string& topic : stream.topics)
+      ++followers_.at(topic);
     return true;
   }
 
@@ -116,6 +131,8 @@ class WebServer::Service final : public WebConnection::Host, public std::enable_
 
   void closed(const std::shared_ptr<WebConnection>& connection) override {
     if (connection->streaming()) --streams_;
+    for (const auto& [topic, version] : connection->followed())
+      --followers_.at(topic);
     connections_.erase(connection);
     open_ = connections_.size();
   }
@@ -143,6 +160,7 @@ class WebServer::Service final : public WebConnection::Host, public std::enable_
 
   const WebServerOptions options_;
   LiveTopics live_;
+  Followers followers_;
   WebSite site_;
   const Ask ask_;
   const Clock& clock_;
@@ -186,6 +204,9 @@ void WebServer::tell(const std::string& topic, const nlohmann::json& news) {
 }
 bool WebServer::has_followers() const noexcept {
   return service_->has_followers();
+}
+bool WebServer::has_followers(const std::string& topic) const {
+  return service_->has_followers(topic);
 }
 WebServerStats WebServer::stats() const noexcept {
   return service_->stats();

@@ -23,11 +23,12 @@ struct WebServerOptions {
   std::size_t most_streams = 12;  // of them
   std::uint32_t most_header_bytes = 8192;
   std::size_t most_body_bytes = 16'384;
-  Duration stranger_timeout = 10s;  // without a whole request
-  Duration request_timeout = 10s;   // from a request's first byte to its end
-  Duration idle_timeout = 60s;      // between two requests
-  Duration answer_timeout = 10s;    // of the daemon to a command
-  Duration write_timeout = 10s;     // an answer, or an event, that the client does not read
+  int stream_buffer_bytes = 65'536;  // of news that the kernel keeps for a client that does not read
+  Duration stranger_timeout = 10s;   // without a whole request
+  Duration request_timeout = 10s;    // from a request's first byte to its end
+  Duration idle_timeout = 60s;       // between two requests
+  Duration answer_timeout = 10s;     // of the daemon to a command
+  Duration write_timeout = 10s;      // an answer, or an event, that the client does not read
 };
 
 struct WebServerStats {
@@ -68,6 +69,8 @@ class WebServer {
   void tell(const std::string& topic, const nlohmann::json& news);
   // Whether anybody follows any: for news that are costly to put together.
   [[nodiscard]] bool has_followers() const noexcept;
+  // Whether anybody follows this one. Throws std::out_of_range if there is no such topic.
+  [[nodiscard]] bool has_followers(const std::string& topic) const;
 
   [[nodiscard]] WebServerStats stats() const noexcept;
 

@@ -34,7 +34,10 @@ class RigWithPages {
     const unsigned noise = ++pictures_ % 3;
     const ScreenPoint dot = dots.empty() ? ScreenPoint{} : dots.front();
     const FingerPlace finger = hand ? hand->finger : FingerPlace{{-1, -1}, -1};
-    const Key key{page, dot.x_mm, dot.y_mm, finger.foot.x_mm, finger.foot.y_mm, finger.hover_mm, noise};
+    const double approach_deg = hand ? hand->approach_deg : 0;
+    const Key key{page, dot.x_mm, dot.y_mm, finger.foot.x_mm, finger.foot.y_mm, finger.hover_mm, approach_deg, noise};
+    constexpr std::size_t most_known = 600;
+    if (known_.size() == most_known) known_.clear();
     cv::Mat& bgr = known_[key];
     if (!bgr.empty()) return bgr;
     if (shown_ != std::tuple(page, dot.x_mm, dot.y_mm)) {
@@ -73,7 +76,7 @@ class RigWithPages {
   }
 
  private:
-  using Key = std::tuple<SetupPage, double, double, double, double, double, unsigned>;
+  using Key = std::tuple<SetupPage, double, double, double, double, double, double, unsigned>;
 
   [[nodiscard]] cv::Mat page_picture(SetupPage page, const std::vector<ScreenPoint>& dots) const {
     if (page == SetupPage::triangle) return triangle_picture(settings_.screen);
@@ -142,17 +145,19 @@ class RenderedSetUp {
         {state.page, state.page == SetupPage::dot ? std::vector{state.dots[state.dot]} : std::vector<ScreenPoint>()});
     const Shown& late = shown_[shown_.size() > 4 ? shown_.size() - 5 : 0];
     const double asked_s = static_cast<double>(frames_ - asked_frame_) / 30;
-    cv::Mat picture = rig_.picture(late.page, late.dots, person(state, asked_s));
-    if (upside_down) cv::rotate(picture, picture_, cv::ROTATE_180), picture = picture_;
-    if (mirrored) cv::flip(picture, picture_, 1), picture = picture_;
+    rig_.picture(late.page, late.dots, person(state, asked_s)).copyTo(picture_);
+    if (upside_down) cv::rotate(picture_, picture_, cv::ROTATE_180);
+    if (mirrored) cv::flip(picture_, picture_, 1);
     ++frames_;
-    session_.look(picture, from_ns(1'000'000'000 + frames_ * 33'333'333) + passed_);
+    session_.look(picture_, from_ns(1'000'000'000 + frames_ * 33'333'333) + passed_);
     said.insert(name_of(session_.state().advice));
   }
 
   // Nothing is seen meanwhile.
   void pass(Duration time) { passed_ += time; }
 
+  // The last one that the session has seen.
+  [[nodiscard]] const cv::Mat& picture() const { return picture_; }
   [[nodiscard]] double seconds() const { return static_cast<double>(frames_) / 30; }
 
   std::set<std::string> said;  // every advice so far

@@ -21,6 +21,8 @@ telehug_test(test_app_consent KIND integration SUBJECT jacket
   SOURCES integration/app/consent_test.cpp DEPS running_pair)
 telehug_test(test_app_pages KIND integration SUBJECT web
   SOURCES integration/app/pages_test.cpp DEPS running_pair)
+telehug_test(test_app_fingers_on_pages KIND integration SUBJECT web
+  SOURCES integration/app/fingers_on_pages_test.cpp DEPS running_pair)
 telehug_test(test_app_paired KIND integration SUBJECT link
   SOURCES integration/app/paired_test.cpp DEPS running_pair)
 telehug_test(test_app_several KIND integration SUBJECT link

@@ -4,6 +4,8 @@ telehug_test(test_face_worker KIND unit SUBJECT face SOURCES unit/app/face_worke
 telehug_test(test_screen_source KIND unit SUBJECT face SOURCES unit/app/screen_source_test.cpp DEPS active_app)
 telehug_test(test_sending KIND unit SUBJECT face
   SOURCES unit/app/sending_switch_test.cpp unit/app/touched_box_test.cpp DEPS active_app)
+telehug_test(test_finger_feed KIND unit SUBJECT web
+  SOURCES doubles/allocation_counter.cpp unit/app/finger_feed_test.cpp DEPS active_app)
 telehug_test(test_live_touches KIND unit SUBJECT web SOURCES unit/app/live_touches_test.cpp DEPS active_app)
 telehug_test(test_hug_back KIND unit SUBJECT ops SOURCES unit/app/hug_back_test.cpp DEPS passive_app)
 telehug_test(test_jacket_trial KIND unit SUBJECT jacket SOURCES unit/app/jacket_trial_test.cpp DEPS passive_app)

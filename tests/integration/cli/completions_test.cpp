@@ -3,6 +3,7 @@
 // The completions that are installed, asked through the shells themselves.
 #include <gmock/gmock.h>
 
+#include "doubles/temporary_folder.hpp"
 #include "integration/cli/shell.hpp"
 
 namespace telehug {
@@ -65,11 +66,17 @@ TEST(BashCompletion, KnowsEveryProgram) {
   EXPECT_THAT(bash_offers("telehug-jacket-sim --board", "motors16"), ElementsAre("motors16"));
 }
 
+// Runs `line` with a home of its own: the shells write their settings there.
+ShellRun shell_with_new_home(const std::string& line) {
+  const TemporaryFolder home;
+  return shell("HOME='" + home.path().string() + "' " + line);
+}
+
 // "WORD\tDESCRIPTION" a line.
 std::vector<std::string> fish_offers(const std::string& line) {
-  const ShellRun run = shell("HOME=/nonexistent fish --no-config -c 'for file in " TELEHUG_MANUAL
-                             "/fish/*.fish; source $file; end; complete -C \"" +
-                             line + "\"' 2>/dev/null");
+  const ShellRun run = shell_with_new_home("fish --no-config -c 'for file in " TELEHUG_MANUAL
+                                           "/fish/*.fish; source $file; end; complete -C \"" +
+                                           line + "\"' 2>/dev/null");
   EXPECT_EQ(run.code, 0);
   return lines_of(run.text);
 }
@@ -87,9 +94,9 @@ TEST(FishCompletion, OffersNoFilesWhereACommandIsMeant) {
 }
 
 bool zsh_offers(const std::string& line, const std::string& word) {
-  return shell("HOME=/nonexistent timeout 30 zsh -f " TELEHUG_SOURCE
-               "/tests/integration/cli/zsh_offers.zsh " TELEHUG_MANUAL "/zsh '" +
-               line + "' '" + word + "' 2>/dev/null")
+  return shell_with_new_home("timeout 30 zsh -f " TELEHUG_SOURCE "/tests/integration/cli/zsh_offers.zsh " TELEHUG_MANUAL
+                             "/zsh '" +
+                             line + "' '" + word + "' 2>/dev/null")
              .code == 0;
 }
 

@@ -21,6 +21,24 @@ TEST_F(TheWebServer, TellsAPageTheNewestAndWhatItBecomes) {
   EXPECT_EQ(browser.read_until("\n\n"), "event: news\ndata: {\"number\":2}\n\n");
 }
 
+TEST_F(TheWebServer, ShowsALivePictureThatNoBrowserKeeps) {
+  picture = std::make_shared<const std::string>("\xFF\xD8 a picture");
+  serve();
+  const std::string answer = ask(get("/picture/camera.jpg"));
+  EXPECT_THAT(answer, StartsWith("HTTP/1.1 200 "));
+  EXPECT_THAT(answer, HasSubstr("Content-Type: image/jpeg\r\n"));
+  EXPECT_THAT(answer, HasSubstr("Cache-Control: no-store\r\n"));
+  EXPECT_THAT(answer, HasSubstr("\r\n\r\n\xFF\xD8 a picture"));
+}
+
+TEST_F(TheWebServer, AnswersForAPictureThatIsNotThereAndGoesOn) {
+  serve();
+  RawBrowser browser(server->port());
+  browser.send(get("/picture/camera.jpg") + get("/"));
+  EXPECT_THAT(browser.read_answer(), StartsWith("HTTP/1.1 204 "));
+  EXPECT_THAT(browser.read_answer(), HasSubstr("<p>page"));
+}
+
 TEST_F(TheWebServer, QueuesNothingForAPageThatReadsTooSlowly) {
   if (!allocations_are_counted()) GTEST_SKIP() << "the sanitizer's heap keeps what was freed";
   serve();
@@ -56,6 +74,36 @@ TEST_F(TheWebServer, GivesUpAPageThatDoesNotRead) {
     server->tell("news", {{"filling", filling}});
     return server->stats().streams == 0;
   }));
+}
+
+TEST_F(TheWebServer, KnowsWhichTopicsAreFollowedUntilThePageIsLeftOrReadsNoMore) {
+  options.write_timeout = 200ms;
+  serve();
+  EXPECT_FALSE(server->has_followers("news"));
+  {
+    RawBrowser page(server->port());
+    page.send(get("/live?topics=news"));
+    EXPECT_THAT(page.read_until("\r\n\r\n"), StartsWith("HTTP/1.1 200 "));
+    EXPECT_TRUE(server->has_followers("news"));
+    EXPECT_FALSE(server->has_followers("weather"));
+    RawBrowser other(server->port());
+    other.send(get("/live?topics=news,weather"));
+    EXPECT_THAT(other.read_until("\r\n\r\n"), StartsWith("HTTP/1.1 200 "));
+    EXPECT_TRUE(server->has_followers("weather"));
+  }
+  EXPECT_TRUE(eventually([this] { return !server->has_followers("news") && !server->has_followers("weather"); }));
+
+  RawBrowser hanging(server->port());
+  hanging.send(get("/live?topics=news"));
+  EXPECT_TRUE(eventually([this] { return server->has_followers("news"); }));
+  std::size_t told = 0;
+  const std::string filling(1000, 'x');
+  EXPECT_TRUE(eventually([&] {
+    server->tell("news", {{"filling", filling}});
+    ++told;
+    return !server->has_followers("news");
+  }));
+  EXPECT_LT(told, 1000U) << "what is kept for it is bounded: at 30 news of 1 kB a second that is half a minute";
 }
 
 TEST_F(TheWebServer, FollowsOnlySoManyPages) {

@@ -17,34 +17,40 @@ const ScreenView window_gone{.live = true, .pins_window = true, .in_front = {}};
 
 TEST(SendingSwitch, SendsNothingWhenItIsOff) {
   for (const ScreenView& screen : {file, whole_screen, in_front, behind, window_gone})
-    EXPECT_EQ(judge_sending(off, true, screen), switched_off);
+    EXPECT_EQ(judge_sending(off, true, false, screen), switched_off);
 }
 
 TEST(SendingSwitch, SendsByItselfOnlyWhileThePinnedWindowIsInFront) {
-  EXPECT_EQ(judge_sending(automatic, true, in_front), sends);
-  EXPECT_EQ(judge_sending(automatic, true, behind), covered);
-  EXPECT_EQ(judge_sending(automatic, true, whole_screen), never_pinned);
+  EXPECT_EQ(judge_sending(automatic, true, false, in_front), sends);
+  EXPECT_EQ(judge_sending(automatic, true, false, behind), covered);
+  EXPECT_EQ(judge_sending(automatic, true, false, whole_screen), never_pinned);
 }
 
 TEST(SendingSwitch, SendsFromAFileByItself) {
-  EXPECT_EQ(judge_sending(automatic, true, file), sends);
+  EXPECT_EQ(judge_sending(automatic, true, false, file), sends);
 }
 
 TEST(SendingSwitch, SendsFromAWholeScreenWhenItIsOn) {
-  EXPECT_EQ(judge_sending(on, true, whole_screen), sends);
+  EXPECT_EQ(judge_sending(on, true, false, whole_screen), sends);
 }
 
 TEST(SendingSwitch, SendsNothingFromBehindAnotherWindowUnlessThatIsAllowed) {
-  EXPECT_EQ(judge_sending(on, true, behind), covered);
-  EXPECT_EQ(judge_sending(on, false, behind), sends);
-  EXPECT_EQ(judge_sending(automatic, false, behind), sends);
+  EXPECT_EQ(judge_sending(on, true, false, behind), covered);
+  EXPECT_EQ(judge_sending(on, false, false, behind), sends);
+  EXPECT_EQ(judge_sending(automatic, false, false, behind), sends);
 }
 
 TEST(SendingSwitch, SendsNothingWhileThePinnedWindowIsNotSeen) {
   for (const SendingMode mode : {automatic, on}) {
-    EXPECT_EQ(judge_sending(mode, true, window_gone), not_seen);
-    EXPECT_EQ(judge_sending(mode, false, window_gone), not_seen);
+    EXPECT_EQ(judge_sending(mode, true, false, window_gone), not_seen);
+    EXPECT_EQ(judge_sending(mode, false, false, window_gone), not_seen);
   }
+}
+
+TEST(SendingSwitch, SendsNothingWhileAPageUsesTheFingers) {
+  for (const SendingMode mode : {automatic, on})
+    for (const ScreenView& screen : {file, whole_screen, in_front, behind, window_gone})
+      EXPECT_EQ(judge_sending(mode, false, true, screen), used_here);
 }
 
 TEST(SendingSwitch, BeginsAsConfiguredAndOffWhenThatMeansNothing) {
