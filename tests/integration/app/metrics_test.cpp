@@ -98,11 +98,12 @@ TEST_F(TheMetrics, HaveEveryCounterOfTheStatusAndWhatElseIsCountedUpon) {
                              "telehug_frames_dropped_total {cause=broken}", "telehug_peer_losses_total {}"})
     EXPECT_THAT(parent, Contains(Key(sample)));
 
+  // A touch may have a gap where this PC is busy.
+  EXPECT_TRUE(eventually([this] { return value(Side::passive, "telehug_actuators_running {}") > 0; })) << pair.logs();
   const Samples wearer = scraped(Side::passive);
   EXPECT_EQ(wearer.at("telehug_jacket_state {telehug_jacket_state=armed}").value, 1);
-  for (const char* sample :
-       {"telehug_events_accepted_total {}", "telehug_drives_accepted_total {}", "telehug_actuators_running {}",
-        "telehug_stage_duration_seconds_count {stage=event_to_link}"})
+  for (const char* sample : {"telehug_events_accepted_total {}", "telehug_drives_accepted_total {}",
+                             "telehug_stage_duration_seconds_count {stage=event_to_link}"})
     EXPECT_GT(wearer.at(sample).value, 0) << sample;
   for (const char* sample :
        {"telehug_events_dropped_total {cause=stale}", "telehug_drives_refused_total {cause=stopped}",
