@@ -35,6 +35,7 @@
 #include "service/metrics.hpp"
 #include "service/notifier.hpp"
 #include "service/signals.hpp"
+#include "setup_run/setup_desk.hpp"
 #include "touched_box.hpp"
 #include "web/daemon_pages.hpp"
 
@@ -81,9 +82,9 @@ struct SeenHug {
 class ActiveDaemon {
  public:
   // Throws AlreadyRunning, std::runtime_error or std::invalid_argument with a sentence for a person.
-  // `feedback` may be null.
+  // `feedback` may be null. `setup`: for set-ups from the pages.
   ActiveDaemon(const ActiveConfig& config, Memberships memberships, std::unique_ptr<FrameSource> camera,
-               std::unique_ptr<FeltFeedback> feedback, const Clock& clock);
+               std::unique_ptr<FeltFeedback> feedback, SetupTools setup, const Clock& clock);
   ~ActiveDaemon();
   ActiveDaemon(const ActiveDaemon&) = delete;
   ActiveDaemon& operator=(const ActiveDaemon&) = delete;
@@ -102,7 +103,9 @@ class ActiveDaemon {
   void hear(ConnectedWearer& wearer, Timestamp now);
   void serve_hugs(Timestamp now);
   void adopt_rig();
+  void adopt_camera();
   [[nodiscard]] bool camera_wanted(Timestamp now);
+  [[nodiscard]] bool used_by_page() const;  // any thread
   void take_frame();
   void rest();
   void judge_sending(bool screen_known);
@@ -112,6 +115,7 @@ class ActiveDaemon {
   void tell_state(Timestamp now);
 
   // Housekeeping
+  void adopt_setup();
   void load_rig_if_changed();
   void tell_watchers();
   void tell_pages();
@@ -122,6 +126,7 @@ class ActiveDaemon {
   [[nodiscard]] bool follow_pairs();
   void keep_connections();
   [[nodiscard]] std::vector<ConnectionStatus> connections() const;
+  [[nodiscard]] std::string why_stopped() const;  // any thread; empty: nobody has
   void answer_commands();
   nlohmann::json order_face(const nlohmann::json& request);
   nlohmann::json order_hug(const nlohmann::json& request);
@@ -139,8 +144,7 @@ class ActiveDaemon {
   MetricsRegistry metrics_;
   Notifier notifier_;
 
-  std::unique_ptr<FrameSource> camera_;
-  const std::string camera_name_;
+  std::unique_ptr<FrameSource> camera_;  // of the touch thread
 
   // Touch thread
   TouchStream touches_;
@@ -166,6 +170,7 @@ class ActiveDaemon {
 
   // Between the threads
   LatestSlot<std::unique_ptr<Rig>> new_rig_;
+  LatestSlot<std::unique_ptr<FrameSource>> new_camera_;
   LocalTouch local_touch_;
   FingerFeed fingers_;
   StopSwitch stop_;
@@ -186,7 +191,9 @@ class ActiveDaemon {
   std::vector<std::shared_ptr<FaceWorker>> face_workers_;
   std::uint32_t rigs_made_ = 0;
   mutable std::mutex words_mutex_;  // guards the sentences below, which the control thread reads
+  std::string camera_name_;
   std::string rig_problem_;
+  std::string setup_problem_;
   std::string face_note_;
   std::optional<SeenHug> last_hug_;
   std::string hug_problem_;  // why it was not seen on the desktop
@@ -210,7 +217,8 @@ class ActiveDaemon {
   SayOnChange say_hug_;
 
   Wearers wearers_;
-  std::optional<PairingDesk> pairing_;  // ends after what asks it
+  std::optional<PairingDesk> pairing_;  // these two end after what asks them
+  std::optional<SetupDesk> setup_;
   std::unique_ptr<ControlServer> control_;
   DaemonPages pages_;
   std::thread touch_thread_;

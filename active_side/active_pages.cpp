@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "active_pages.hpp"
 
+#include <utility>
+
 #include "active_daemon.hpp"
 
 namespace telehug {
@@ -13,10 +15,11 @@ constexpr Duration status_interval = 250ms;
 
 }  // namespace
 
-DaemonPagesOptions active_pages_options() {
+DaemonPagesOptions active_pages_options(LivePicture setup_camera) {
   return {.side = Side::active,
-          .commands = {"status", "stop", "resume", "send", "face", "hug", "pairing"},
-          .topics = {"status", "touch", "fingers", "pairing"},
+          .commands = {"status", "stop", "resume", "send", "face", "hug", "pairing", "setup"},
+          .topics = {"status", "touch", "fingers", "pairing", "setup"},
+          .pictures = {{"setup.jpg", std::move(setup_camera)}},
           .files = active_pages()};
 }
 
@@ -28,6 +31,8 @@ void ActiveDaemon::tell_pages() {
   if (!pages_.has_followers()) return;
   if (const auto news = live_touches_.news()) pages_.tell("touch", *news);
   if (const auto news = pairing_->news()) pages_.tell("pairing", *news);
+  if (pages_.has_followers("setup")) setup_->followed();
+  if (const auto news = setup_->news()) pages_.tell("setup", *news);
   if (now - told_pages_ < status_interval) return;
   told_pages_ = now;
   pages_.tell("status", status());

@@ -7,7 +7,6 @@
 #include <cmath>
 
 #include "active_daemon.hpp"
-#include "body_map/vitruvian_grid.hpp"
 #include "body_map_json.hpp"
 #include "common/names.hpp"
 #include "daemon/status_parts.hpp"
@@ -16,8 +15,6 @@ namespace telehug {
 namespace {
 
 using Json = nlohmann::json;
-
-constexpr Duration desktop_interval = 1s;
 
 Json touch_json(const SentTouch& touch) {
   const Contact& contact = touch.contact;
@@ -92,7 +89,8 @@ Json camera_problems(const TouchThreadState& state) {
   Json list = Json::array();
   if (state.camera_lost) list.push_back(problem_json(state.camera_problem, "plug the camera in, or correct [camera]"));
   if (state.camera_drift == DriftState::moved || state.camera_drift == DriftState::unseen) {
-    list.push_back(problem_json(drift_text(state.camera_drift), "run `telehug-active calibrate`"));
+    list.push_back(
+        problem_json(drift_text(state.camera_drift), "set it up again on the page that `telehug open` shows"));
   }
   if (state.camera_open && !state.knows_background) {
     list.push_back(problem_json("telehug learns how bezel and desk look with nobody there; no touch begins meanwhile",
@@ -155,7 +153,7 @@ Json ActiveDaemon::order_face(const Json& request) {
 
 Json ActiveDaemon::sending_json(const TouchThreadState& state) const {
   if (!state.face) return {{"name", name_of(sending_switch_.mode())}, {"on", false}, {"why", "not calibrated"}};
-  const SendingVerdict verdict = sending_switch_.judge(state.face->view(), fingers_.wanted());
+  const SendingVerdict verdict = sending_switch_.judge(state.face->view(), used_by_page());
   Json sending = {{"name", name_of(sending_switch_.mode())}, {"on", verdict == SendingVerdict::sends}};
   switch (verdict) {
     case SendingVerdict::sends:
@@ -185,7 +183,10 @@ Json ActiveDaemon::problems(const TouchThreadState& state, const FaceState& face
   {
     const std::lock_guard lock(words_mutex_);
     if (!rig_problem_.empty())
-      list.push_back(problem_json(rig_problem_, "run `telehug-active calibrate`, or correct the file"));
+      list.push_back(
+          problem_json(rig_problem_, "set it up on the page that `telehug open` shows, or correct the file"));
+    if (!setup_problem_.empty())
+      list.push_back(problem_json(setup_problem_, "set up another camera, or start telehug-active again"));
     if (!face_note_.empty()) list.push_back(problem_json(face_note_, "telehug works, but not as well as it could"));
     if (!desktop_problem_.empty())
       list.push_back(problem_json(desktop_problem_, "or turn off [overlay] show and [sending] hotkey"));
@@ -200,6 +201,10 @@ Json ActiveDaemon::problems(const TouchThreadState& state, const FaceState& face
   add_absences(list, Side::active, connections);
   for (const Json& problem : camera_problems(state))
     list.push_back(problem);
+  if (setup_->camera_hangs()) {
+    list.push_back(problem_json("the camera does not answer, and the set-up waits for it",
+                                "unplug it and plug it in again; if that does not help, start telehug-active again"));
+  }
   if (feedback_) {
     if (const std::string problem = feedback_->problem(); !problem.empty())
       list.push_back(problem_json("the actuator at the toucher's finger: " + problem,
@@ -212,8 +217,7 @@ Json ActiveDaemon::problems(const TouchThreadState& state, const FaceState& face
   if (state.recording_over) list.push_back(problem_json("the recording is over", "start again to replay it"));
   if (no_face(face)) {
     list.push_back(problem_json(face.problem, "touches are not sent until a face is found; check [body_map]"));
-  } else if (face.open &&
-             sending_switch_.judge(state.face->view(), fingers_.wanted()) == SendingVerdict::never_pinned) {
+  } else if (face.open && sending_switch_.judge(state.face->view(), used_by_page()) == SendingVerdict::never_pinned) {
     list.push_back(problem_json("touches don't go out: it is not known whether the video chat is in front",
                                 "run `telehug send on`; on X11 [body_map] window pins the window of the chat"));
   }
@@ -228,9 +232,7 @@ Json ActiveDaemon::status() const {
   }
   const FaceState face = state.face ? state.face->state() : FaceState{};
   const auto connected = connections();
-  const bool peers_stopped =
-      !connected.empty() && std::ranges::all_of(connected, [](const auto& wearer) { return wearer.stopped_by_peer; });
-  const bool stopped = stop_.stopped() || peers_stopped;
+  const bool stopped = !why_stopped().empty();
   const bool alive = any_alive(connected);
   const bool fault = state.camera_lost || state.camera_drift == DriftState::moved ||
                      !picture_problem(state.picture).is_null() || !state.face || no_face(face);
@@ -250,12 +252,19 @@ Json ActiveDaemon::status() const {
   counters["hugs_received"] = hugs_received;
   counters["hugs_not_shown"] = hugs_not_shown;
 
+  const bool setting_up = setup_->camera().wanted();
   const char* open_why = state.camera_open      ? alive ? "a peer is connected" : "this PC uses the touches"
+                         : setting_up           ? "a set-up uses it"
                          : state.recording_over ? "the recording is over"
                          : state.camera_lost    ? "it can't be used"
                          : stopped              ? "stopped"
                          : !state.face          ? "not calibrated"
                                                 : "nobody needs it";
+  std::string camera_name;
+  {
+    const std::lock_guard lock(words_mutex_);
+    camera_name = camera_name_;
+  }
   Json answer = {
       {"side", "active"},
       {"version", version},
@@ -267,7 +276,7 @@ Json ActiveDaemon::status() const {
                          : "ok"},
       {"problems", problems(state, face, connected)},
       {"camera",
-       {{"name", camera_name_}, {"open", state.camera_open}, {"why", open_why}, {"problems", camera_problems(state)}}},
+       {{"name", camera_name}, {"open", state.camera_open}, {"why", open_why}, {"problems", camera_problems(state)}}},
       {"screen", {{"name", face.screen}, {"open", face.open}}},
       {"face",
        {{"found", face.map.version != 0},
@@ -294,54 +303,6 @@ Json ActiveDaemon::status() const {
   }
   pages_.add_status(answer);
   return answer;
-}
-
-void ActiveDaemon::tell_local_touch() {
-  std::string works;
-  std::string problems;
-  for (const LocalTouchState& output : local_touch_.states()) {
-    if (output.open) works += (works.empty() ? "" : ", ") + output.name;
-    if (!output.problem.empty()) problems += (problems.empty() ? "" : "; ") + output.problem;
-  }
-  if (!works.empty() || !problems.empty()) {
-    say_local_touch_.say(problems.empty() ? spdlog::level::info : spdlog::level::warn,
-                         problems.empty() ? "touches are used on this PC: " + works : problems);
-  }
-}
-
-void ActiveDaemon::show_touched_box(const FaceState& face, FaceWorker* worker) {
-  if (!overlay_) return;
-  if (face.map.version == 0) touched_box_.clear();
-  const auto& shown = touched_box_.shown();
-  const auto box = shown ? box_rect(face.map, shown->box) : std::nullopt;
-  if (clock_.now() < glows_until_ && face.map.version != 0 && face.scale) {
-    const cv::Rect2d person_px = face.scale->to_px(face.map.face) | face.scale->to_px(face.map.visible);
-    overlay_->show({cv::Point(person_px.tl()), cv::Point(person_px.br())}, OverlayState::hugged);
-  } else if (box && face.scale) {
-    const cv::Rect2d box_px = face.scale->to_px(*box);
-    overlay_->show({cv::Point(box_px.tl()), cv::Point(box_px.br())},
-                   shown->felt ? OverlayState::felt : OverlayState::touched);
-  } else {
-    overlay_->hide();
-  }
-  if (worker != nullptr) worker->leave_out(overlay_->areas());
-}
-
-// What this desktop does for us besides showing the chat; what is not there is looked for once a second.
-void ActiveDaemon::serve_desktop() {
-  if (hotkey_ && hotkey_->is_open() && hotkey_->pressed()) sending_switch_.toggle();
-  const Timestamp now = clock_.now();
-  if (now - desktop_served_ < desktop_interval) return;
-  desktop_served_ = now;
-  std::string problem;
-  const auto note = [&problem](const Status& opened, const std::string& last_error) {
-    if (problem.empty()) problem = opened ? last_error : opened.error().message;
-  };
-  if (overlay_) note(overlay_->open(), overlay_->last_error());
-  if (hotkey_) note(hotkey_->open(), hotkey_->last_error());
-  if (!problem.empty()) say_desktop_.say(spdlog::level::warn, problem);
-  const std::lock_guard lock(words_mutex_);
-  desktop_problem_ = std::move(problem);
 }
 
 void ActiveDaemon::tell_watchers() {

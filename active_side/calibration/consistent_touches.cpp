@@ -6,6 +6,7 @@
 #include <limits>
 #include <numeric>
 #include <optional>
+#include <utility>
 
 #include "calibration/rig_residuals.hpp"
 #include "calibration/rig_solver.hpp"
@@ -15,6 +16,7 @@ namespace {
 
 constexpr std::size_t least_touches = 4;
 constexpr std::size_t enough_marks = 5;
+constexpr std::size_t enough_touches = 2;  // to tell more than the marks alone
 // Distances from where the solution of a triple, and then of all that agree with it, sees a touch. A triple tells
 // little of what lies far beside it.
 constexpr double near_triple_px = 25;  // in pictures 1280 px wide
@@ -38,7 +40,17 @@ class Search {
 
   [[nodiscard]] std::vector<std::size_t> agreeing_with_marks() const {
     const auto solved = solve({});
-    return solved ? near(solved->model, agrees_px * scale_, agrees_with_marks_sd) : std::vector<std::size_t>();
+    if (!solved) return {};
+    std::vector<std::size_t> agreeing = near(solved->model, agrees_px * scale_, agrees_with_marks_sd);
+    // Few marks tell little of what lies far beside them: what agrees with them and with these touches does, too.
+    while (agreeing.size() >= enough_touches && agreeing.size() < seen_.touches.size()) {
+      const auto better = solve(agreeing);
+      if (!better) break;
+      std::vector<std::size_t> more = near(better->model, agrees_px * scale_, agrees_with_marks_sd);
+      if (more.size() <= agreeing.size()) break;
+      agreeing = std::move(more);
+    }
+    return agreeing;
   }
 
   [[nodiscard]] std::optional<Consensus> consensus(const std::vector<std::size_t>& sample) const {

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <opencv2/imgproc.hpp>
 #include <optional>
 #include <utility>
 
@@ -113,18 +114,24 @@ const LevelLine* nearest_line(const std::vector<LevelLine>& lines, const ImagePo
   return nearest;
 }
 
-// The line on which the two edges of the triangle meet: one edge falls to the left of the vertex, one to its right.
-std::optional<ScreenBorder> line_at_triangle(const std::vector<LineSegment>& segments,
-                                             const std::vector<LevelLine>& lines, double least_length_px) {
+// Two edges that meet as the triangle's do: one falls to the left of the vertex, one to its right.
+struct TriangleEdges {
+  LineSegment left;
+  LineSegment right;
+  ImagePoint vertex;
+  [[nodiscard]] double length() const { return length_px(left) + length_px(right); }
+};
+
+// The longest first. Of rolled cameras one edge may be as level as borders are.
+std::vector<TriangleEdges> possible_triangles(const std::vector<LineSegment>& segments, double least_deg) {
   std::vector<LineSegment> edges;
   for (const LineSegment& segment : segments) {
     const double deg = std::abs(inclination_deg(segment));
-    if (deg >= triangle_least_deg && deg <= triangle_largest_deg && length_px(segment) >= triangle_least_length_px) {
+    if (deg >= least_deg && deg <= triangle_largest_deg && length_px(segment) >= triangle_least_length_px) {
       edges.push_back(segment);
     }
   }
-  std::optional<ScreenBorder> best;
-  double best_length_px = 0;
+  std::vector<TriangleEdges> found;
   for (const LineSegment& left : edges) {
     if (inclination_deg(left) > 0) continue;  // rises to the right, to the vertex
     for (const LineSegment& right : edges) {
@@ -134,15 +141,69 @@ std::optional<ScreenBorder> line_at_triangle(const std::vector<LineSegment>& seg
           vertex->u_px - vertex_limit_px > right.left.u_px) {
         continue;
       }
-      const LevelLine* line = nearest_line(lines, *vertex, least_length_px);
-      const double length = length_px(left) + length_px(right);
-      if (line != nullptr && length > best_length_px) {
-        best = ScreenBorder{line->line, line->length_px, vertex};
-        best_length_px = length;
-      }
+      found.push_back({left, right, *vertex});
     }
   }
-  return best;
+  std::sort(found.begin(), found.end(),
+            [](const TriangleEdges& a, const TriangleEdges& b) { return a.length() > b.length(); });
+  return found;
+}
+
+// The line on which the triangle's edges meet.
+std::optional<ScreenBorder> line_at_triangle(const std::vector<LineSegment>& segments,
+                                             const std::vector<LevelLine>& lines, double least_length_px) {
+  for (const TriangleEdges& triangle : possible_triangles(segments, triangle_least_deg)) {
+    const LevelLine* line = nearest_line(lines, triangle.vertex, least_length_px);
+    if (line != nullptr) return ScreenBorder{line->line, line->length_px, triangle.vertex};
+  }
+  return std::nullopt;
+}
+
+// Whether it is darker below this edge than above it, all along it.
+bool darker_below(const cv::Mat& grey, const LineSegment& edge) {
+  constexpr double aside_px = 12;
+  constexpr double darker = 0.85;
+  const double length = length_px(edge);
+  const double across_u = -(edge.right.v_px - edge.left.v_px) / length * aside_px;
+  const double across_v = (edge.right.u_px - edge.left.u_px) / length * aside_px;
+  const auto light = [&](double u, double v) {
+    const cv::Rect part = cv::Rect(static_cast<int>(u) - 3, static_cast<int>(v) - 3, 7, 7) & cv::Rect({}, grey.size());
+    return part.empty() ? 0 : cv::mean(grey(part))[0];
+  };
+  for (const double along : {0.25, 0.5, 0.75}) {
+    const double u = edge.left.u_px + along * (edge.right.u_px - edge.left.u_px);
+    const double v = edge.left.v_px + along * (edge.right.v_px - edge.left.v_px);
+    if (light(u + across_u, v + across_v) > darker * light(u - across_u, v - across_v)) return false;
+  }
+  return true;
+}
+
+std::optional<ScreenBorder> triangle_alone(const cv::Mat& bgr, const std::vector<LineSegment>& segments,
+                                           const std::vector<LevelLine>& lines) {
+  // The whole triangle reaches over some of the screen: short pairs are things on the desk.
+  constexpr double least_part = 0.2;  // of the picture's width, both edges together
+  constexpr double least_between_deg = 10;
+  constexpr double largest_gap_part = 0.2;  // of the picture's width, between an edge that was found and the vertex
+  constexpr double farthest_part = 0.15;  // of the picture's height, that the bezel's edges are away from the screen's
+  cv::Mat grey;
+  cv::cvtColor(bgr, grey, cv::COLOR_BGR2GRAY);
+  for (const TriangleEdges& triangle : possible_triangles(segments, 0)) {
+    if (triangle.length() < least_part * bgr.cols) break;
+    if (inclination_deg(triangle.right) - inclination_deg(triangle.left) < least_between_deg) continue;
+    const double gap_px =
+        std::max(triangle.vertex.u_px - triangle.left.right.u_px, triangle.right.left.u_px - triangle.vertex.u_px);
+    if (gap_px > largest_gap_part * bgr.cols) continue;
+    if (!darker_below(grey, triangle.left) || !darker_below(grey, triangle.right)) continue;
+    const ImagePoint& vertex = triangle.vertex;
+    if (vertex.u_px < 0 || vertex.v_px < 0 || vertex.u_px >= bgr.cols || vertex.v_px >= bgr.rows) continue;
+    const auto level = std::find_if(lines.begin(), lines.end(), [&](const LevelLine& line) {
+      return line.length_px >= least_part_of_width * bgr.cols &&
+             distance_px(line.line, vertex) < farthest_part * bgr.rows;
+    });
+    const double slope = level == lines.end() ? 0 : level->line.slope;
+    return ScreenBorder{{vertex.v_px - slope * vertex.u_px, slope}, 0, vertex};
+  }
+  return std::nullopt;
 }
 
 // `lines` is sorted, the longest first, and not empty.
@@ -174,6 +235,10 @@ Result<ScreenBorder> find_screen_border(const cv::Mat& bgr, BorderChoice choice)
   const auto segments = find_line_segments(bgr);
   const auto lines = merge_by_level(segments);
   const double least_length_px = least_part_of_width * bgr.cols;
+  if (choice == BorderChoice::triangle_alone) {
+    if (const auto border = triangle_alone(bgr, segments, lines)) return *border;
+    return Error{"no triangle found: show it on the whole screen, with its point in the camera's view"};
+  }
   if (lines.empty() || lines.front().length_px < least_length_px) {
     return Error{
         fmt::format("no border of the screen found: the longest level line covers {:.0f} of {} columns; let "

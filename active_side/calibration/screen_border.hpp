@@ -26,9 +26,12 @@ struct LevelLine {
 };
 
 enum class BorderChoice {
-  triangle,  // the picture shows a black triangle with one vertex on the screen's bottom edge: it picks the line
-  longest,   // no triangle: the longest line, the lowest of those equally long. May be another edge than the
-             // screen's own: in one sample it is the bezel's mirror image, 9 px below
+  triangle,        // the picture shows a black triangle with one vertex on the screen's bottom edge: it picks the line
+  triangle_alone,  // where the triangle's edges meet, if below them it is darker: of dim screens in light bezels no
+                   // line is found there. The line goes through the vertex, as level as the longest one; its length is
+                   // 0
+  longest,         // no triangle: the longest line, the lowest of those equally long. May be another edge than the
+                   // screen's own: in one sample it is the bezel's mirror image, 9 px below
 };
 
 struct ScreenBorder {

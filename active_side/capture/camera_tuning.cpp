@@ -55,11 +55,14 @@ class Search {
     if (!before) return no_picture();
     tuning_.before = tuning_.after = *before;
     for (int round = 0; round < options_.rounds; ++round) {
-      for (std::size_t i = 0; i < controls_.size(); ++i)
+      for (std::size_t i = 0; i < controls_.size() && !ended_; ++i) {
         tune(i, round);
+        tell_progress(static_cast<std::size_t>(round) * controls_.size() + i + 1, 0);
+      }
     }
     set_all();
-    tuning_.complete = !out_of_time_;
+    tuning_.complete = !out_of_time_ && !ended_;
+    tuning_.ended = ended_;
     if (lost_) return no_picture();
     return tuning_;
   }
@@ -73,7 +76,10 @@ class Search {
     const double width = 1 / std::pow(static_cast<double>(options_.steps), round);
     std::vector<std::int32_t> tried{tuning_.values[index].value};
     const double first = round == 0 ? 0 : centre - width / 2;
-    for (int step = 0; step <= options_.steps; ++step) {
+    for (int step = 0; step <= options_.steps && !ended_; ++step) {
+      tell_progress(static_cast<std::size_t>(round) * controls_.size() + index,
+                    static_cast<double>(step) / (options_.steps + 1));
+      if (ended_) break;
       const std::int32_t value = value_at(control, std::clamp(first + width * step / options_.steps, 0.0, 1.0));
       if (std::ranges::find(tried, value) != tried.end()) continue;
       tried.push_back(value);
@@ -91,9 +97,17 @@ class Search {
     (void)set_(tuning_.values[index]);
   }
 
+  // `controls`: how many are done, over all rounds, and how much of the next one.
+  void tell_progress(std::size_t controls, double part) {
+    if (ended_ || !options_.progress) return;
+    const double all = static_cast<double>(options_.rounds) * static_cast<double>(controls_.size());
+    done_ = (static_cast<double>(controls) + part) / all;
+    ended_ = !options_.progress(done_);
+  }
+
   // Waits for the camera if it is gone: measuring takes time then.
   std::optional<double> score() {
-    while (clock_.now() < end_) {
+    while (clock_.now() < end_ && !ended_) {
       if (const auto measured = measure_()) {
         if (!lost_) {
           ++tuning_.measurements;
@@ -104,8 +118,9 @@ class Search {
         continue;
       }
       lost_ = true;
+      if (options_.progress) ended_ = !options_.progress(done_);
     }
-    out_of_time_ = true;
+    out_of_time_ = !ended_;
     return std::nullopt;
   }
 
@@ -123,6 +138,8 @@ class Search {
   Tuning tuning_;
   bool lost_ = false;
   bool out_of_time_ = false;
+  bool ended_ = false;
+  double done_ = 0;
 };
 
 }  // namespace

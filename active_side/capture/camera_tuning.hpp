@@ -16,11 +16,15 @@ namespace telehug {
 using MeasureScene = std::function<std::optional<double>()>;
 using SetControl = std::function<Status(const ControlValue&)>;
 
+// Told after each setting that was tried how much of the search is done, 0 to 1, rising. False ends it.
+using TuningProgress = std::function<bool(double)>;
+
 struct TuningOptions {
   Duration longest = 60s;
-  int rounds = 2;            // through all controls; in each, the steps are finer
-  int steps = 6;             // over the whole range of a control in the first round
-  double least_gain = 0.02;  // a setting must be so much better (part of the score) to be taken: pictures are noisy
+  int rounds = 2;                // through all controls; in each, the steps are finer
+  int steps = 6;                 // over the whole range of a control in the first round
+  double least_gain = 0.02;      // a setting must be so much better (part of the score) to be taken: pictures are noisy
+  TuningProgress progress = {};  // may be empty
 };
 
 struct Tuning {
@@ -28,7 +32,8 @@ struct Tuning {
   double before = 0;     // score at the values it began with
   double after = 0;
   int measurements = 0;
-  bool complete = false;  // false: the time was over before the search
+  bool complete = false;  // false: the time was over before the search, or it was ended
+  bool ended = false;     // by TuningOptions::progress
 };
 
 // Those of a camera's controls that make finger and border more or less different: exposure, gain, brightness,

@@ -37,13 +37,32 @@ Error webcam_failure(const std::string& device, const char* doing, int code) {
   }
 }
 
-std::string first_webcam_device() {
-  std::vector<std::string> devices;
+namespace {
+
+// udev calls them usb-MAKER_MODEL_SERIAL-video-index0.
+std::string name_in(std::string file) {
+  if (file.starts_with("usb-")) file.erase(0, 4);
+  file.resize(file.rfind("-video-index0"));
+  std::ranges::replace(file, '_', ' ');
+  return file;
+}
+
+}  // namespace
+
+std::vector<WebcamDevice> list_webcams(const std::filesystem::path& folder) {
+  std::vector<WebcamDevice> webcams;
   std::error_code none;
-  for (const auto& entry : std::filesystem::directory_iterator("/dev/v4l/by-id", none)) {
-    if (entry.path().string().ends_with("video-index0")) devices.push_back(entry.path().string());
+  for (const auto& entry : std::filesystem::directory_iterator(folder, none)) {
+    const std::string file = entry.path().filename().string();
+    if (file.ends_with("-video-index0")) webcams.push_back({entry.path().string(), name_in(file)});
   }
-  return devices.empty() ? "/dev/video0" : *std::min_element(devices.begin(), devices.end());
+  std::ranges::sort(webcams, {}, &WebcamDevice::path);
+  return webcams;
+}
+
+std::string first_webcam_device() {
+  const auto webcams = list_webcams();
+  return webcams.empty() ? "/dev/video0" : webcams.front().path;
 }
 
 }  // namespace telehug

@@ -3,20 +3,14 @@
 #include <iostream>
 #include <memory>
 
-#include "calibration/calibration_file.hpp"
-#include "calibration/screen_border.hpp"
-#include "capture/camera_tuning.hpp"
-#include "capture/finger_separation.hpp"
-#include "capture/measure_scene.hpp"
 #include "capture/webcam.hpp"
 #include "capture/webcam_device.hpp"
 #include "commands/config_options.hpp"
 #include "config/places.hpp"
+#include "setup_run/tuning_with_finger.hpp"
 
 namespace telehug {
 namespace {
-
-constexpr Duration longest_wait = 500ms;
 
 struct Options {
   ConfigOptions config;
@@ -51,17 +45,7 @@ ExitCode restore(const Options& options) {
   return ExitCode::ok;
 }
 
-// A picture that was taken after this call began.
-Result<Frame> fresh_picture(FrameSource& camera) {
-  Frame frame;
-  int fresh = 0;
-  for (int tries = 0; tries < 40; ++tries) {
-    if (camera.read(frame, longest_wait) == ReadOutcome::frame && ++fresh > settle_frames) return frame;
-  }
-  return Error{"no picture comes from the camera: " + camera.last_error()};
-}
-
-Result<Frame> asked_picture(FrameSource& camera, const char* request) {
+Result<cv::Mat> asked_picture(FrameSource& camera, const char* request) {
   fmt::print("{}, then press Enter. ", request);
   (void)std::fflush(stdout);
   std::string line;
@@ -69,39 +53,19 @@ Result<Frame> asked_picture(FrameSource& camera, const char* request) {
   return fresh_picture(camera);
 }
 
-Result<BorderPlace> border_in(const cv::Mat& picture, const ActiveConfig& config) {
-  const auto calibration = read_calibration(rig_file(config.rig));
-  if (calibration && calibration->image.width_px == picture.cols && calibration->image.height_px == picture.rows) {
-    return BorderPlace{calibration->border.v0_px, calibration->border.slope};
-  }
-  const auto found = find_screen_border(picture, BorderChoice::longest);
-  if (!found) return found.error();
-  return BorderPlace{found->line.v0_px, found->line.slope};
-}
-
 Result<Tuning> tune_at(FrameSource& camera, const std::string& device, const ActiveConfig& config, double seconds) {
   auto without = asked_picture(camera, "Take your hands away from the screen");
   if (!without) return without.error();
-  const cv::Mat empty = without->bgr.clone();
+  const cv::Mat empty = without->clone();
   auto with = asked_picture(camera, "Lay one finger on the lower part of the screen, from below, and keep it there");
   if (!with) return with.error();
-  const auto border = border_in(empty, config);
-  if (!border) return border.error();
-  const auto separation = FingerSeparation::find(empty, with->bgr, *border);
-  if (!separation) return separation.error();
-
-  CameraControls controls(kernel_v4l2_calls());
-  if (const Status opened = controls.open(device); !opened) return opened.error();
-  const auto tunable = tunable_controls(controls.list(), config.camera.fps);
-  if (tunable.empty()) return Error{device + " has no setting that could be tuned; set camera.preset to \"keep\""};
   fmt::print("Trying settings for at most {:.0f} s; keep the finger where it is.\n", seconds);
   const SteadyClock clock;
-  Frame frame;
   TuningOptions tuning;
   tuning.longest = std::chrono::duration_cast<Duration>(std::chrono::duration<double>(seconds));
-  return tune_camera(
-      tunable, [&](const ControlValue& value) { return controls.set(value); },
-      [&] { return measure_scene(camera, *separation, frame); }, tuning, clock);
+  const TunedWebcam webcam{device, static_cast<double>(config.camera.fps), rig_file(config.rig),
+                           tuned_camera_file(config.rig)};
+  return tune_with_finger(camera, empty, *with, webcam, tuning, kernel_v4l2_calls(), clock);
 }
 
 ExitCode tune(const Options& options) {
@@ -116,11 +80,9 @@ ExitCode tune(const Options& options) {
   if (const Status opened = camera.open(); !opened) return fail(ExitCode::device, opened.error());
   const auto tuned = tune_at(camera, device, *config, options.seconds);
   if (!tuned) return fail(ExitCode::device, tuned.error());
-  const std::filesystem::path file = tuned_camera_file(config->rig);
-  if (const Status kept = write_camera_memory(file, {device, tuned->values}); !kept)
-    return fail(ExitCode::device, kept.error());
   fmt::print("separation of finger and border: {:.1f} before, {:.1f} now ({} measurements{})\n{}\n", tuned->before,
-             tuned->after, tuned->measurements, tuned->complete ? "" : ", not all: the time was over", file.string());
+             tuned->after, tuned->measurements, tuned->complete ? "" : ", not all: the time was over",
+             tuned_camera_file(config->rig).string());
   return ExitCode::ok;
 }
 

@@ -15,11 +15,15 @@ void add_config_options(CLI::App& command, ConfigOptions& options) {
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
 }
 
-Result<ActiveConfig> load_config(const ConfigOptions& options) {
+ConfigSources config_sources(const ConfigOptions& options) {
   ConfigSources sources = usual_config_sources();
   if (!options.file.empty()) sources.only_file = options.file;
   sources.overrides = options.overrides;
-  return load_active_config(sources);
+  return sources;
+}
+
+Result<ActiveConfig> load_config(const ConfigOptions& options) {
+  return load_active_config(config_sources(options));
 }
 
 CaptureSettings capture_settings(const ActiveConfig& config) {

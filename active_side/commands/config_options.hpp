@@ -7,6 +7,9 @@
 
 namespace telehug {
 
+// Which files and flags that are.
+[[nodiscard]] ConfigSources config_sources(const ConfigOptions& options);
+
 // Of the usual places, or of what the command line says instead.
 [[nodiscard]] Result<ActiveConfig> load_config(const ConfigOptions& options);
 

@@ -4,6 +4,7 @@
 
 #include "active_daemon.hpp"
 #include "commands/config_options.hpp"
+#include "config/places.hpp"
 #include "service/control_socket.hpp"
 
 namespace telehug {
@@ -14,6 +15,17 @@ struct Options {
   std::string source;
   bool loop = false;
 };
+
+SetupTools setup_tools(const Options& options, const ActiveConfig& config, const CaptureSettings& capture,
+                       const Clock& clock) {
+  return {.capture = capture,
+          .calibration_file = rig_file(config.rig),
+          .config = config_sources(options.config),
+          .open = [&clock](const std::string& source,
+                           const CaptureSettings& settings) { return make_frame_source(source, settings, clock); },
+          .calls = kernel_v4l2_calls(),
+          .clock = clock};
+}
 
 ExitCode run(const Options& options) {
   Signals signals;
@@ -38,7 +50,8 @@ ExitCode run(const Options& options) {
   auto feedback = FeltFeedback::make(config->feedback, clock);
   if (!feedback) return fail(ExitCode::config, feedback.error());
   try {
-    ActiveDaemon daemon(*config, *std::move(found), *std::move(camera), *std::move(feedback), clock);
+    ActiveDaemon daemon(*config, *std::move(found), *std::move(camera), *std::move(feedback),
+                        setup_tools(options, *config, capture, clock), clock);
     return daemon.run(signals);
   } catch (const AlreadyRunning& running) {
     return fail(ExitCode::already_running, Error{running.what()});

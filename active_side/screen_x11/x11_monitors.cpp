@@ -37,7 +37,11 @@ std::vector<X11Monitor> list_x11_monitors(const X11Connection& connection) {
     const xcb_randr_monitor_info_t& info = *entry.data;
     X11Monitor monitor{.name = atom_name(server, info.name),
                        .primary = info.primary != 0,
-                       .place_px = cv::Rect(info.x, info.y, info.width, info.height) & whole};
+                       .place_px = cv::Rect(info.x, info.y, info.width, info.height) & whole,
+                       .width_mm = info.width_in_millimeters,
+                       .height_mm = info.height_in_millimeters};
+    const auto* const outputs = xcb_randr_monitor_info_outputs(entry.data);
+    monitor.outputs.assign(outputs, outputs + xcb_randr_monitor_info_outputs_length(entry.data));
     if (!monitor.place_px.empty()) {
       monitors.push_back(std::move(monitor));
     }

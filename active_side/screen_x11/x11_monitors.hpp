@@ -14,7 +14,10 @@ namespace telehug {
 struct X11Monitor {
   std::string name;  // RandR's: "HDMI-1"
   bool primary = false;
-  cv::Rect place_px;  // px of the root window, within it; not empty
+  cv::Rect place_px;           // px of the root window, within it; not empty
+  std::uint32_t width_mm = 0;  // as the server says; 0: it does not know
+  std::uint32_t height_mm = 0;
+  std::vector<std::uint32_t> outputs = {};  // RandR's, that show it
 };
 
 // The monitors that are on. Needs RandR 1.5.

@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <opencv2/imgproc.hpp>
+#include <optional>
 #include <stdexcept>
 
 #include "setup/touch_watch.hpp"
@@ -13,6 +15,7 @@ namespace {
 
 constexpr Duration bright_still = 600ms;
 constexpr Duration without_triangle = 4s;  // then another line will do, if the person agrees
+constexpr Duration without_black = 15s;    // long enough to show a page by hand
 constexpr Duration background_still = 1s;
 constexpr Duration marks_still = 500ms;
 constexpr int looks_per_search = 6;  // pictures, in which edges are searched for once
@@ -21,7 +24,8 @@ constexpr int most_tries = 4;        // of finding marks: then it goes on withou
 constexpr int most_backgrounds = 3;  // that are taken before somebody who seems to be there is believed to be furniture
 // Chosen, not measured: the lightest tenth of a picture with a white page in it is well above.
 constexpr double dark_bright_page = 60;
-constexpr double black_part = 0.8;  // of what the white page was, compared with the rest of the picture
+constexpr double black_part = 0.8;   // of what the white page was, compared with the rest of the picture
+constexpr double least_black = 0.1;  // of the screen: the triangle was black already
 // Chosen, not measured: little more than the noise of a covered lens.
 constexpr double dark_desk = 6;
 
@@ -43,24 +47,13 @@ double middle_row(const BorderLine& line, const cv::Mat& bgr) {
   return line.v_at(0.5 * bgr.cols);
 }
 
-double light_of(const cv::Mat& part) {
-  if (part.empty()) return 0;
-  const cv::Scalar mean = cv::mean(part);
-  return (mean[0] + mean[1] + mean[2]) / 3;
-}
-
-SetupAdvice advice_of(CameraTurn turn) {
-  switch (turn) {
-    case CameraTurn::towards_screen:
-      return SetupAdvice::turn_towards_screen;
-    case CameraTurn::towards_user:
-      return SetupAdvice::turn_towards_user;
-    case CameraTurn::level:
-      return SetupAdvice::turn_level;
-    case CameraTurn::none:
-      break;
-  }
-  return SetupAdvice::none;
+// Grey levels of fields of about 16 x 16 px in pictures of 1280 columns.
+cv::Mat fields_of(const cv::Mat& bgr) {
+  constexpr int columns = 80;
+  cv::Mat small, grey;
+  cv::resize(bgr, small, {columns, std::max(2, columns * bgr.rows / bgr.cols)}, 0, 0, cv::INTER_AREA);
+  cv::cvtColor(small, grey, cv::COLOR_BGR2GRAY);
+  return grey;
 }
 
 }  // namespace
@@ -82,28 +75,24 @@ void EmptyScreenSteps::forget() {
   still_.forget();
   looks_ = 0;
   tries_ = 0;
+  asked_at_.reset();
 }
 
-// The triangle's line as the picture is, then upside down; else the longest line, or none.
+// The triangle's line as the picture is, then upside down; the triangle without a line; else the longest line, or none.
 void EmptyScreenSteps::find_border(const cv::Mat& bgr, SetupState& state) {
   border_found_ = false;
-  seen_.upside_down = false;
-  for (const bool upside_down : {false, true}) {
-    if (border_found_ || (upside_down && !may_be_upside_down_)) break;
+  const auto look = [&](BorderChoice choice, bool upside_down) {
+    if (border_found_ || (upside_down && !may_be_upside_down_)) return;
     seen_.upside_down = upside_down;
-    if (const auto found = find_screen_border(seen_.turned(bgr), BorderChoice::triangle)) {
-      seen_.border = *found;
-      border_found_ = true;
-    }
+    const auto found = find_screen_border(seen_.turned(bgr), choice);
+    border_found_ = found.ok();
+    seen_.border = found ? *found : ScreenBorder{};
+  };
+  for (const BorderChoice choice : {BorderChoice::triangle, BorderChoice::triangle_alone}) {
+    look(choice, false);
+    look(choice, true);
   }
-  if (!border_found_) {
-    seen_.upside_down = false;
-    seen_.border = {};
-    if (const auto found = find_screen_border(bgr, BorderChoice::longest)) {
-      seen_.border = *found;
-      border_found_ = true;
-    }
-  }
+  look(BorderChoice::longest, false);
   tell_border(state);
 }
 
@@ -148,40 +137,66 @@ LookOutcome EmptyScreenSteps::look_bright(const cv::Mat& bgr, Timestamp now, Set
     state.advice = advice_of(turn);
     if (turn == CameraTurn::none && still_.still_for() < bright_still) state.advice = SetupAdvice::hold_still;
   }
-  if (still_.still_for() < (at_the_triangle ? bright_still : without_triangle) || too_dark) return LookOutcome::wait;
+  if (still_.still_for() < (at_the_triangle ? bright_still : without_triangle) || too_dark || !border_found_)
+    return LookOutcome::wait;
   seen_.triangle = still_.picture();
+  const EmptyScreen before = seen_;
   find_border(seen_.triangle, state);
-  bright_light_ = screen_light(seen_.triangle);
+  if (at_the_triangle && !seen_.border.vertex) {  // just not in that picture
+    seen_ = before;
+    tell_border(state);
+  }
+  white_fields_ = fields_of(seen_.turned(seen_.triangle));
   return LookOutcome::done;
 }
 
 LookOutcome EmptyScreenSteps::look_confirm(const cv::Mat& bgr, SetupState& state) {
   state.progress = 1;
   if (looks_++ % looks_per_search != 0 || !seen_.border.vertex) return LookOutcome::wait;
-  const auto now = find_screen_border(seen_.turned(bgr), BorderChoice::triangle);
-  const bool moved =
-      now && std::abs(middle_row(now->line, bgr) - middle_row(seen_.border.line, bgr)) > moved_px * bgr.cols / 1280;
+  // As it was found: the line and the triangle alone see the vertex some pixels apart.
+  const bool alone = seen_.border.length_px == 0;
+  const auto now = find_screen_border(seen_.turned(bgr), alone ? BorderChoice::triangle_alone : BorderChoice::triangle);
+  const auto row = [&](const ScreenBorder& border) {
+    return alone ? border.vertex->v_px : middle_row(border.line, bgr);
+  };
+  const bool moved = now && std::abs(row(*now) - row(seen_.border)) > moved_px * bgr.cols / 1280;
   return moved ? LookOutcome::back : LookOutcome::wait;
 }
 
-// How much lighter than the rest of the picture is the part that shows the screen (its lower half where no border is
-// known)? The camera's exposure is in both.
-double EmptyScreenSteps::screen_light(const cv::Mat& bgr) const {
+// Has enough of the part that shows the screen (the picture's lower half where no border is known) become darker than
+// it was with the white page? The camera's exposure is what the rest of the picture has become.
+bool EmptyScreenSteps::sees_black(const cv::Mat& bgr) const {
+  const cv::Mat now = fields_of(seen_.turned(bgr));
   const double edge = border_found_ ? middle_row(seen_.border.line, bgr) : 0.5 * bgr.rows;
-  const int first = std::clamp(static_cast<int>(edge), 1, bgr.rows - 1);
-  const cv::Mat upright = seen_.turned(bgr);
-  return (light_of(upright.rowRange(first, bgr.rows)) + 1) / (light_of(upright.rowRange(0, first)) + 1);
+  const int first = std::clamp(static_cast<int>(edge * now.rows / bgr.rows), 1, now.rows - 1);
+  const auto change = [&](int row, int column) {
+    return (now.at<uchar>(row, column) + 2.0) / (white_fields_.at<uchar>(row, column) + 2.0);
+  };
+  std::vector<double> rest;
+  for (int row = 0; row < first; ++row) {
+    for (int column = 0; column < now.cols; ++column)
+      rest.push_back(change(row, column));
+  }
+  std::nth_element(rest.begin(), rest.begin() + static_cast<std::ptrdiff_t>(rest.size() / 2), rest.end());
+  const double exposure = rest[rest.size() / 2];
+  int darker = 0;
+  for (int row = first; row < now.rows; ++row) {
+    for (int column = 0; column < now.cols; ++column)
+      darker += change(row, column) < black_part * exposure ? 1 : 0;
+  }
+  return darker > least_black * (now.rows - first) * now.cols;
 }
 
 LookOutcome EmptyScreenSteps::look_background(const cv::Mat& bgr, Timestamp now, SetupState& state) {
   still_.look(bgr, now);
   state.progress = waited(still_.still_for(), background_still);
-  const bool seen = screen_light(bgr) <= black_part * bright_light_;
-  if (!seen) {
+  if (!asked_at_) asked_at_ = now;
+  if (!sees_black(bgr)) {
     still_.forget();
     state.progress = 0;
     state.advice = SetupAdvice::page_not_seen;
-    return LookOutcome::wait;
+    // What was taken for the screen's edge is none, it seems.
+    return !seen_.border.vertex && now - *asked_at_ >= without_black ? LookOutcome::back : LookOutcome::wait;
   }
   if (percentile(bgr, 0.9) < dark_desk) {
     state.advice = SetupAdvice::too_dark;
@@ -194,6 +209,16 @@ LookOutcome EmptyScreenSteps::look_background(const cv::Mat& bgr, Timestamp now,
   return LookOutcome::done;
 }
 
+void EmptyScreenSteps::find_cameras() {
+  EmptyScreenPictures pictures{seen_.screen, seen_.border, seen_.turned(seen_.black), seen_.turned(seen_.marks)};
+  seen_.cameras = cameras_from_marks(pictures, seen_.upside_down);
+  if (!seen_.cameras.empty() || !seen_.border.vertex) return;
+  // What looked like the triangle was something else, perhaps.
+  pictures.border.vertex.reset();
+  seen_.cameras = cameras_from_marks(pictures, seen_.upside_down);
+  if (!seen_.cameras.empty()) seen_.border.vertex.reset();
+}
+
 LookOutcome EmptyScreenSteps::look_marks(const cv::Mat& bgr, Timestamp now, SetupState& state) {
   still_.look(bgr, now);
   state.progress = waited(still_.still_for(), marks_still);
@@ -203,8 +228,7 @@ LookOutcome EmptyScreenSteps::look_marks(const cv::Mat& bgr, Timestamp now, Setu
   }
   seen_.marks = still_.picture();
   still_.forget();
-  seen_.cameras = cameras_from_marks({seen_.screen, seen_.border, seen_.turned(seen_.black), seen_.turned(seen_.marks)},
-                                     seen_.upside_down);
+  find_cameras();
   if (seen_.cameras.empty()) {
     state.advice = SetupAdvice::page_not_seen;
     return ++tries_ < most_tries ? LookOutcome::wait : LookOutcome::done;

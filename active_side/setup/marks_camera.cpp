@@ -19,7 +19,7 @@ namespace {
 // that it sees within 0.4 of the marks' distance.
 constexpr std::array focal_factors{0.75, 0.87, 1.0, 1.14, 1.3};
 constexpr std::array distance_factors{0.55, 1.0, 1.5};
-constexpr std::size_t tried = 8;  // of those that fit best
+constexpr std::size_t tried = 8;  // of those that fit best and look at different places
 constexpr std::size_t most_cameras = 3;
 
 ImageSize size_of(const cv::Mat& bgr) {
@@ -79,15 +79,23 @@ RigObservations observations(const EmptyScreenPictures& seen, std::vector<PointO
   return all;
 }
 
+constexpr std::array slopes{0.0, -0.05, 0.05};  // of an edge that was not seen
+
 // Where the middle of the screen's bottom edge is seen: at the vertex, else anywhere, 15 mm apart.
 std::vector<ScreenBorder> possible_borders(const EmptyScreenPictures& seen, ImageSize image) {
-  if (seen.border.vertex) return {seen.border};
+  if (seen.border.vertex && seen.border.length_px > 0) return {seen.border};
+  if (const auto& vertex = seen.border.vertex) {
+    std::vector<ScreenBorder> borders;
+    for (const double slope : slopes)
+      borders.push_back({{vertex->v_px - slope * vertex->u_px, slope}, 0, vertex});
+    return borders;
+  }
   constexpr double usual_px_per_mm = 3.3;  // in pictures of 1280 columns
   const double step_px = 15 * usual_px_per_mm * image.width_px / 1280;
   std::vector<ScreenBorder> borders;
   for (int column = -3; column <= 3; ++column) {
     for (double row = 0.3; row < 0.9; row += 0.03) {
-      for (const double slope : {-0.05, 0.0, 0.05}) {
+      for (const double slope : slopes) {
         const ImagePoint vertex{0.5 * image.width_px + column * step_px, row * image.height_px};
         borders.push_back({{vertex.v_px - slope * vertex.u_px, slope}, 0, vertex});
       }
@@ -121,6 +129,25 @@ void keep_different(std::vector<Candidate>& candidates, const ScreenSize& screen
     if (!known) kept.push_back(candidate);
   }
   candidates = std::move(kept);
+}
+
+struct Found {
+  double likeness;
+  RigCalibration camera;
+};
+
+// A camera that takes some marks for their neighbours sees others where there are none.
+std::vector<RigCalibration> likeliest(std::vector<Found> found, const ScreenSize& screen) {
+  std::stable_sort(found.begin(), found.end(), [](const Found& a, const Found& b) { return a.likeness > b.likeness; });
+  std::vector<RigCalibration> cameras;
+  for (Found& next : found) {
+    if (cameras.size() == most_cameras) break;
+    const bool known = std::any_of(cameras.begin(), cameras.end(), [&](const RigCalibration& other) {
+      return sees_alike(next.camera.solution.model.camera, other.solution.model.camera, screen);
+    });
+    if (!known) cameras.push_back(std::move(next.camera));
+  }
+  return cameras;
 }
 
 }  // namespace
@@ -158,26 +185,20 @@ std::vector<RigCalibration> cameras_from_marks(const EmptyScreenPictures& seen, 
   }
   std::sort(candidates.begin(), candidates.end(),
             [](const Candidate& a, const Candidate& b) { return a.likeness > b.likeness; });
-  if (!seen.border.vertex) keep_different(candidates, seen.screen);
-  std::vector<RigCalibration> found;
-  const std::size_t enough = seen.border.vertex ? 1 : most_cameras;
-  for (std::size_t i = 0; i < std::min(tried, candidates.size()) && found.size() < enough; ++i) {
-    const auto known = [&](const RigCamera& camera) {
-      return std::any_of(found.begin(), found.end(), [&](const RigCalibration& other) {
-        return sees_alike(camera, other.solution.model.camera, seen.screen);
-      });
-    };
-    if (known(candidates[i].camera)) continue;
-    const auto rough = solve(near(candidates[i].camera));
+  keep_different(candidates, seen.screen);
+  std::vector<Found> found;
+  for (const Candidate& candidate : candidates) {
+    const auto rough = solve(near(candidate.camera));
     if (!rough) continue;
     auto better = solve(near(rough->solution.model.camera));
     if (!better) continue;
     const RigCamera& camera = better->solution.model.camera;
     auto exact = solve(measured_marks(seen.marks, near(camera), seen.screen, camera));
     if (exact) better = std::move(exact);
-    if (!known(better->solution.model.camera)) found.push_back(*std::move(better));
+    const double like = likeness(spots, seen.screen, better->solution.model.camera);
+    found.push_back({like, *std::move(better)});
   }
-  return found;
+  return likeliest(std::move(found), seen.screen);
 }
 
 Calibration as_calibration(const RigModel& model, const ScreenSize& screen) {

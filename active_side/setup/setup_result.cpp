@@ -16,6 +16,7 @@ constexpr int map_columns = 12;
 constexpr int map_rows = 8;
 // Fingers differ from the one that has calibrated: see TipNoise.
 constexpr TipNoise usual_noise{0.3, 0.3, 4.5};
+constexpr double agrees_mm = 1;
 
 SetupResult without_touches(const std::vector<ScreenPoint>& dots, const std::vector<bool>& taken) {
   SetupResult result;
@@ -64,9 +65,13 @@ SetupResult judge_setup(const Calibration& calibration, const std::vector<Screen
     dot.error_mm = rig->solution.touches[i].error_mm;
   }
   CalibrationVerdict verdict = judge_calibration(*rig);
-  // One that was not used first, then the one that a bad calibration suffers from most.
+  // One that was not used first, then the one that a bad calibration suffers from most. One that lies where the others
+  // say would tell nothing new.
   for (std::size_t i = 0; i < dots.size(); ++i) {
-    if (!result.dots[i].used && !result.dots[i].skipped) result.repeat.push_back(i);
+    const DotOutcome& dot = result.dots[i];
+    const bool agrees =
+        verdict.good() && dot.error_mm && std::hypot(dot.error_mm->x_mm, dot.error_mm->y_mm) < agrees_mm;
+    if (!dot.used && !dot.skipped && !agrees) result.repeat.push_back(i);
   }
   if (verdict.repeat && !verdict.good()) {
     const std::size_t worst = dot_of(dots, touches[*verdict.repeat]);

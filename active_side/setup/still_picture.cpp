@@ -61,6 +61,16 @@ cv::Mat in_tones_of(const cv::Mat& wanted, const cv::Mat& fields) {
   return toned;
 }
 
+// By how much the fields have become other than what both exposures make of them. A field that is partly white already
+// changes by less than its tone says.
+cv::Mat changes(const cv::Mat& wanted, const cv::Mat& fields) {
+  const cv::Mat toned = in_tones_of(wanted, fields);
+  cv::Mat below, above;
+  cv::subtract(cv::min(fields, toned), wanted, below);
+  cv::subtract(wanted, cv::max(fields, toned), above);
+  return cv::max(below, above);
+}
+
 }  // namespace
 
 void StillPicture::forget() {
@@ -74,9 +84,8 @@ bool StillPicture::moved(const cv::Mat& fields) const {
   const double gain = (cv::sum(first_)[0] + 1) / (cv::sum(fields)[0] + 1);
   if (gain > largest_gain || gain < 1 / largest_gain) return true;
   // Into the lighter tones: what is white in a picture can't be made darker.
-  const cv::Mat change =
-      gain > 1 ? cv::abs(in_tones_of(first_, fields) - first_) : cv::abs(in_tones_of(fields, first_) - fields);
-  return cv::countNonZero(change > largest_change) >= changed_fields;
+  return cv::countNonZero((gain > 1 ? changes(first_, fields) : changes(fields, first_)) > largest_change) >=
+         changed_fields;
 }
 
 void StillPicture::look(const cv::Mat& bgr, Timestamp now) {

@@ -8,11 +8,11 @@ import {DotCheck} from "./accuracy/dot_check.js";
 import {dotGrid} from "./accuracy/dot_grid.js";
 import {errorOf} from "./accuracy/errors.js";
 import {saveCsv, saveReport, showFindings} from "./accuracy/results_view.js";
-import {drawDots, fillScreen, leaveScreen} from "./accuracy/stage.js";
+import {clearDots, drawDots, fillScreen, leaveScreen} from "./accuracy/stage.js";
 import {TouchTaker} from "./accuracy/touch_taker.js";
 import {covers, otherPixels, otherScreen} from "./accuracy/window_fit.js";
 import {Words} from "./accuracy/words.js";
-import {TouchFrames} from "./touch_frames.js";
+import {TouchFrames} from "./fingers/touch_frames.js";
 
 const SETUP = "/setup.html";
 const OPENS_MS = 4000;  // the camera, after it was asked for
@@ -196,6 +196,7 @@ async function start() {
 }
 
 async function goOn() {
+  showStatus(await command({command: "status"}));
   if (!isCalibratedAs(status.touch_screen, run.status.touch_screen)) throw new Error(text("accuracy.calibrated_anew"));
   await begin();
 }
@@ -207,6 +208,8 @@ async function finish(said = "") {
   wakeLock?.release();
   run.date = new Date();
   await leaveScreen();
+  clearDots();
+  write(part("now"), "");
   write(part("refusal"), said);
   showResults();
   (part("results").hidden ? part("start") : part("done-title")).focus();

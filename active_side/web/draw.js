@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // Drawing and writing on the screen with the fingers, a mouse, a pen or the keys.
 import {beginPage, make, onPress, text, write} from "/shared/page.js";
-import {Drawing} from "./drawing.js";
-import {Fingers} from "./fingers.js";
-import {KeyboardPen} from "./keyboard_pen.js";
-import {palettes} from "./palette.js";
-import {ScreenPlace} from "./screen_place.js";
-import {drawStrokes, StrokeCanvas} from "./stroke_canvas.js";
-import {svgOfDrawing} from "./svg_of_drawing.js";
+import {Drawing} from "./drawing/drawing.js";
+import {Fingers} from "./fingers/fingers.js";
+import {KeyboardPen} from "./drawing/keyboard_pen.js";
+import {palettes} from "./drawing/palette.js";
+import {ScreenPlace} from "./fingers/screen_place.js";
+import {drawStrokes, StrokeCanvas} from "./drawing/stroke_canvas.js";
+import {svgOfDrawing} from "./drawing/svg_of_drawing.js";
 
 const WIDTHS_MM = [1, 2, 4, 7, 12];
 
@@ -46,7 +46,9 @@ function placePen() {
 function lookAgain() {
   map = place.map;
   canvas.className = paper;
-  shown.show(map, palette());
+  const reach = place.size?.reach_mm ?? [];
+  part("reach").hidden = reach.length === 0;
+  shown.show(map, palette(), reach.map(([x_mm, y_mm]) => ({x_mm, y_mm})));
   placePen();
   for (const [i, button] of [...part("colours").children].entries())
     button.querySelector("i").style.background = palette().colours[i];

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Pop the balloons: with the fingers, a mouse, or the key of their number.
 import {beginPage, make, onPress, text, write} from "/shared/page.js";
-import {BALLOONS, Balloons} from "./balloons.js";
-import {Fingers} from "./fingers.js";
-import {palettes} from "./palette.js";
-import {ScreenPlace} from "./screen_place.js";
+import {BALLOONS, Balloons} from "./drawing/balloons.js";
+import {Fingers} from "./fingers/fingers.js";
+import {palettes} from "./drawing/palette.js";
+import {ScreenPlace} from "./fingers/screen_place.js";
 
 const LONGEST_STEP_S = 0.1;  // a page that was hidden does not leap
 

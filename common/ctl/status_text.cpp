@@ -28,11 +28,16 @@ bool flag_at(const Json& json, const std::string& name) {
   return value != nullptr && value->is_boolean() && value->get<bool>();
 }
 
+bool says_something(const Json& value) {
+  return !value.is_null() && !(value.is_string() && value.get_ref<const std::string&>().empty()) &&
+         !(value.is_structured() && value.empty());
+}
+
 // "name value, name value" of what is left of a part.
 std::string rest_of(const Json& json, std::initializer_list<std::string_view> shown) {
   std::string text;
   for (const auto& [name, value] : json.items()) {
-    if (std::find(shown.begin(), shown.end(), name) != shown.end()) continue;
+    if (!says_something(value) || std::find(shown.begin(), shown.end(), name) != shown.end()) continue;
     text += fmt::format("{}{} {}", text.empty() ? "" : ", ", plain_text(name), text_of(value));
   }
   return text;
@@ -109,7 +114,8 @@ std::string thing_text(std::string_view label, const Json& thing) {
   std::string text = joined(text_at(thing, "name"), ", ", text_at(thing, "gesture"));
   if (part(thing, "open") != nullptr) text = joined(text, ", ", flag_at(thing, "open") ? "open" : "closed");
   text = joined(text, ": ", text_at(thing, "why"));
-  return line(label, joined(text, ", ", rest_of(thing, {"name", "gesture", "open", "why", "places_px", "heaters"})));
+  return line(label, joined(text, ", ",
+                            rest_of(thing, {"name", "gesture", "open", "why", "places_px", "reach_mm", "heaters"})));
 }
 
 // One line for each of several.

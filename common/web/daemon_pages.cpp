@@ -24,10 +24,10 @@ DaemonPages::DaemonPages(const WebConfig& config, const DaemonPagesOptions& opti
       control.ask(std::move(request), std::move(answered));
     };
     try {
-      server_ =
-          std::make_unique<WebServer>(WebServerOptions{.port = static_cast<std::uint16_t>(config.port)},
-                                      WebSiteOptions{"telehug-" + side_name(side_), options.commands, options.topics},
-                                      WebFiles({shared_pages(), options.files}), ask, clock);
+      server_ = std::make_unique<WebServer>(
+          WebServerOptions{.port = static_cast<std::uint16_t>(config.port)},
+          WebSiteOptions{"telehug-" + side_name(side_), options.commands, options.topics, options.pictures},
+          WebFiles({shared_pages(), options.files}), ask, clock);
     } catch (const std::runtime_error& problem) {
       problem_ = problem.what();
       spdlog::error("{}", problem_);

@@ -4,6 +4,7 @@
 // answered by the same handlers, on the control server's thread.
 #pragma once
 
+#include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -21,9 +22,10 @@ namespace telehug {
 
 struct DaemonPagesOptions {
   Side side = Side::active;
-  std::set<std::string> commands;            // of the local socket, that pages may send
-  std::set<std::string> topics;              // that pages may follow
-  std::span<const EmbeddedFile> files = {};  // beside those that both sides share, which are below "shared/"
+  std::set<std::string> commands;                    // of the local socket, that pages may send
+  std::set<std::string> topics;                      // that pages may follow
+  std::map<std::string, LivePicture> pictures = {};  // that they may look at; called until stop()
+  std::span<const EmbeddedFile> files = {};          // beside those that both sides share, which are below "shared/"
 };
 
 class DaemonPages {

@@ -15,6 +15,7 @@ using Json = nlohmann::json;
 
 constexpr const char* json_type = "application/json";
 constexpr std::string_view enter_path = "/enter";
+constexpr std::string_view pictures_path = "/picture/";
 
 // Those of a page and, in front of them, those that all pages share.
 Json read_texts(const WebFiles& files, std::string_view language) {
@@ -61,6 +62,8 @@ WebReply WebSite::reply(const WebRequest& request, std::uint16_t port, Timestamp
   if (!get) return {refusal(405, "only /command takes POST"), true};
   if (request.path == "/live") return {stream(request), true};
   if (request.path == "/texts.json") return {texts(request), true};
+  if (request.path.starts_with(pictures_path))
+    return {picture(std::string(request.path.substr(pictures_path.size()))), true};
   return {file(request), true};
 }
 
@@ -93,6 +96,14 @@ WebAnswer WebSite::file(const WebRequest& request) const {
   const std::vector<std::pair<std::string, std::string>> headers{{"ETag", found->etag}, {"Cache-Control", "no-cache"}};
   if (request.if_none_match == found->etag) return {304, std::string(found->type), "", headers};
   return {200, std::string(found->type), std::string(found->content), headers};
+}
+
+WebAnswer WebSite::picture(const std::string& name) const {
+  const auto found = options_.pictures.find(name);
+  if (found == options_.pictures.end()) return refusal(404, "there is no such picture");
+  const auto newest = found->second();
+  if (!newest) return {.status = 204, .headers = {{"Cache-Control", "no-store"}}};
+  return {200, "image/jpeg", *newest, {{"Cache-Control", "no-store"}}};
 }
 
 WebAnswer WebSite::texts(const WebRequest& request) const {

@@ -5,11 +5,14 @@
 //   GET  /NAME                  the embedded file; / is index.html
 //   GET  /texts.json[?lang=de]  all texts of the pages in one language
 //   GET  /live?topics=a,b       server-sent events: the newest of these topics, and what they become
+//   GET  /picture/NAME          the newest of a live picture, as a JPEG; 204 if there is none at present
 //   POST /command               a request as on the local socket (common/ctl/README.md), of those that pages may send
 // All but the first need the session's cookie, and pass request_rules.hpp before.
 #pragma once
 
+#include <functional>
 #include <map>
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <string>
@@ -31,7 +34,7 @@ inline constexpr std::string_view web_languages[] = {"en", "de", "fr"};
 struct WebAnswer {
   unsigned status = 200;
   std::string type = "text/plain; charset=utf-8";
-  std::string body;
+  std::string body = {};
   std::vector<std::pair<std::string, std::string>> headers = {};
 };
 // To be answered with what the daemon says to it.
@@ -47,10 +50,15 @@ struct WebReply {
   bool known = false;  // whoever asks has a session
 };
 
+// The newest of a picture that goes on changing, as a whole JPEG file; null if there is none at present. Called in the
+// server's thread whenever a page asks for it, so that it is made only while somebody looks: it must not wait.
+using LivePicture = std::function<std::shared_ptr<const std::string>()>;
+
 struct WebSiteOptions {
-  std::string cookie;              // its name: cookies know no ports, and a PC may run both sides
-  std::set<std::string> commands;  // that pages may send
-  std::set<std::string> topics;    // that they may follow
+  std::string cookie;                                // its name: cookies know no ports, and a PC may run both sides
+  std::set<std::string> commands;                    // that pages may send
+  std::set<std::string> topics;                      // that they may follow
+  std::map<std::string, LivePicture> pictures = {};  // by the names that pages ask for
 };
 
 class WebSite {
@@ -71,6 +79,7 @@ class WebSite {
   [[nodiscard]] WebAnswer enter(const WebRequest& request, Timestamp now);
   [[nodiscard]] WebAnswer shut_door(const WebRequest& request, unsigned status, const std::string& why) const;
   [[nodiscard]] WebAnswer file(const WebRequest& request) const;
+  [[nodiscard]] WebAnswer picture(const std::string& name) const;
   [[nodiscard]] WebAnswer texts(const WebRequest& request) const;
   [[nodiscard]] std::variant<WebAnswer, WebCommand, WebStream> stream(const WebRequest& request) const;
   [[nodiscard]] std::variant<WebAnswer, WebCommand, WebStream> command(const WebRequest& request) const;

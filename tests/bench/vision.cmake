@@ -5,5 +5,5 @@ telehug_bench(bench_touch
           bench/touch/mjpeg_figures.cpp bench/touch/thesis_figures.cpp doubles/allocation_counter.cpp
   DEPS active_app active_calibration active_capture active_detection active_eval active_finger active_touch
        telehug_pictures PkgConfig::libjpeg)
-telehug_bench(bench_setup SOURCES bench/setup/bench_setup.cpp bench/setup/random_set_up.cpp
+telehug_bench(bench_setup SOURCES bench/setup/bench_setup.cpp doubles/random_set_up.cpp
   DEPS active_setup active_capture opencv::imgproc telehug_pictures)

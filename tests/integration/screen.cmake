@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 telehug_test(test_x11_grabber KIND integration SUBJECT face
   SOURCES integration/screen_x11/x11_display_test.cpp integration/screen_x11/x11_monitor_grab_test.cpp
-          integration/screen_x11/x11_window_grab_test.cpp
+          integration/screen_x11/x11_monitor_sizes_test.cpp integration/screen_x11/x11_window_grab_test.cpp
   DEPS active_screen_x11)
 telehug_test(test_portal_grabber KIND integration SUBJECT face
   SOURCES integration/screen_portal/portal_consent_test.cpp integration/screen_portal/portal_pictures_test.cpp

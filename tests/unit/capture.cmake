@@ -7,7 +7,7 @@ telehug_test(test_capture KIND unit SUBJECT touch
   SOURCES unit/capture/camera_setup_test.cpp unit/capture/camera_tuning_test.cpp
     unit/capture/frame_check_rows_test.cpp unit/capture/frame_check_test.cpp doubles/allocation_counter.cpp
     unit/capture/make_frame_source_test.cpp unit/capture/recording_test.cpp unit/capture/rig_directory_test.cpp
-    unit/capture/webcam_test.cpp
+    unit/capture/webcam_device_test.cpp unit/capture/webcam_test.cpp
   DEPS active_capture fmt::fmt)
 telehug_test(test_virtual_rig KIND unit SUBJECT touch
   SOURCES unit/capture/directed_rig_test.cpp unit/capture/hand_path_test.cpp

@@ -31,11 +31,15 @@ function shapesOf({dot, outcome, place}) {
 export function drawDots({width_mm, height_mm}, unseen, check, isTouched) {
   const svg = part("dots");
   svg.setAttribute("viewBox", `0 0 ${width_mm} ${height_mm}`);
-  svg.replaceChildren(...unseen.map((dot) => circle("unseen", dot, UNSEEN_MM)), 
+  svg.replaceChildren(...unseen.map((dot) => circle("unseen", dot, UNSEEN_MM)),
                       ...check.results.flatMap((result) => isTouched && result.dot === check.dot ? [] : shapesOf(result)));
   if (check.dot === null) return;
   if (!isTouched) svg.append(circle("ring-back", check.dot, RING_MM), circle("ring", check.dot, RING_MM));
   part("panel").classList.toggle("below", check.dot.y_mm < height_mm / 2);
+}
+
+export function clearDots() {
+  part("dots").replaceChildren();
 }
 
 // Waits until `isCovering`, which becomes true some time after the browser has agreed.

@@ -2,9 +2,9 @@
 // From what a finger does to the place that counts as its touch: the median of where it was seen while it rested. One
 // finger at a time.
 //
-// A lit dot under a fingertip misleads the camera's net: on the virtual rig by 2 to 4 mm upwards on a dark screen, 1.3 on
-// a bright one, where it is 0.5 mm off without. So the dot goes out when it is touched, and what was seen until screen and
-// camera have followed does not count.
+// A lit dot under a fingertip misleads the camera's net: on the virtual rig by 2 to 4 mm upwards on a dark screen, by 1
+// to 1.5 on a bright one. So the dot goes out when it is touched, and what was seen until screen and camera have followed
+// does not count.
 import {median} from "./statistics.js";
 
 const GOES_OUT_MS = 400;

@@ -48,7 +48,10 @@ class TheWebServer : public testing::Test {
  protected:
   void begin() {
     server.emplace(
-        options, WebSiteOptions{"telehug-test", {"echo", "silence"}, {"news", "weather"}}, WebFiles({served_files}),
+        options,
+        WebSiteOptions{
+            "telehug-test", {"echo", "silence"}, {"news", "weather"}, {{"camera.jpg", [this] { return picture; }}}},
+        WebFiles({served_files}),
         [this](const nlohmann::json& request, const WebServer::Answered& answered) {
           ++asked;
           if (request.at("command") == "echo") answered(request);
@@ -87,6 +90,7 @@ class TheWebServer : public testing::Test {
   std::optional<WebServer> server;
   std::string cookie;
   std::atomic<int> asked{0};
+  std::shared_ptr<const std::string> picture;  // before begin()
 };
 
 }  // namespace telehug

@@ -21,6 +21,24 @@ TEST_F(TheWebServer, TellsAPageTheNewestAndWhatItBecomes) {
   EXPECT_EQ(browser.read_until("\n\n"), "event: news\ndata: {\"number\":2}\n\n");
 }
 
+TEST_F(TheWebServer, ShowsALivePictureThatNoBrowserKeeps) {
+  picture = std::make_shared<const std::string>("\xFF\xD8 a picture");
+  serve();
+  const std::string answer = ask(get("/picture/camera.jpg"));
+  EXPECT_THAT(answer, StartsWith("HTTP/1.1 200 "));
+  EXPECT_THAT(answer, HasSubstr("Content-Type: image/jpeg\r\n"));
+  EXPECT_THAT(answer, HasSubstr("Cache-Control: no-store\r\n"));
+  EXPECT_THAT(answer, HasSubstr("\r\n\r\n\xFF\xD8 a picture"));
+}
+
+TEST_F(TheWebServer, AnswersForAPictureThatIsNotThereAndGoesOn) {
+  serve();
+  RawBrowser browser(server->port());
+  browser.send(get("/picture/camera.jpg") + get("/"));
+  EXPECT_THAT(browser.read_answer(), StartsWith("HTTP/1.1 204 "));
+  EXPECT_THAT(browser.read_answer(), HasSubstr("<p>page"));
+}
+
 TEST_F(TheWebServer, QueuesNothingForAPageThatReadsTooSlowly) {
   if (!allocations_are_counted()) GTEST_SKIP() << "the sanitizer's heap keeps what was freed";
   serve();

@@ -46,13 +46,16 @@ export class Daemons {
     return path.join(this.folder, `${side}.sock`);
   }
 
-  start(side, settings, more = []) {
+  // `own`: as if this user had the files of configuration in the folder `telehug` beside the sockets, and the X server
+  // `own.display`; else there are none.
+  start(side, settings, more = [], own = undefined) {
     const all = [...this.dds, `control.socket=${this.socket(side)}`,
                  `peer.pairs_folder=${path.join(this.folder, `pairs-${side}`)}`, ...settings];
     const log = fs.openSync(path.join(this.folder, `${side}.log`), "a");
     const child = spawn(path.join(this.bin, `telehug-${side}`),
-                        ["run", "--config", "/dev/null", ...all.flatMap((setting) => ["--set", setting]), ...more],
-                        {stdio: ["ignore", log, log]});
+                        ["run", ...(own ? [] : ["--config", "/dev/null"]), ...all.flatMap((setting) => ["--set", setting]), ...more],
+                        {stdio: ["ignore", log, log],
+                         env: own ? {...process.env, DISPLAY: own.display, XDG_CONFIG_HOME: this.folder} : process.env});
     this.children.push(child);
     return child;
   }
@@ -94,6 +97,14 @@ export class Daemons {
   async startBareActive() {
     const child = this.start("active", [`rig.calibration_file=${path.join(this.folder, "none.toml")}`],
                              ["--source", "virtual"]);
+    await eventually(() => this.status("active"), "the daemon that has no calibration");
+    return child;
+  }
+
+  // The same, with the camera that `source` names, with files of configuration as a user has them.
+  async startUnsetActive(source, display = "", settings = []) {
+    const child = this.start("active", [`rig.calibration_file=${path.join(this.folder, "rig.toml")}`, ...settings],
+                             ["--source", source], {display});
     await eventually(() => this.status("active"), "the daemon that has no calibration");
     return child;
   }

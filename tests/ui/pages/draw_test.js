@@ -119,6 +119,14 @@ describe("The page to draw on", () => {
     await rig.show(page);
   });
 
+  test("shows where the camera sees fingers", async () => {
+    const outline = (await status()).touch_screen.reach_mm;
+    const [[ax, ay], [bx, by]] = outline.filter(([x, y]) => y > 150 && y < 280 && x < 150);
+    const places = Array.from({length: 40}, (_, i) => inPixels([ax + (bx - ax) * i / 39, ay + (by - ay) * i / 39]));
+    const {colours} = await look(await page.screenshot(), places);
+    assert.ok(colours.includes("#6b7688") && colours.includes("#12161d"), `a dashed line: ${colours}`);
+  });
+
   test("holds a word as the finger wrote it, stroke by stroke", async () => {
     const word = hug([103, 170], 70);
     const drawn = await draw(word);
@@ -223,9 +231,16 @@ describe("The page to draw on", () => {
     await eventually(async () => !(await status()).sending.on, "touches are kept");
   });
 
+  test("says what keeps the fingers from working", async () => {
+    await daemons.telehug("stop", "--socket", daemons.socket(active));
+    await page.getByText("Everything is stopped, fingers too.").waitFor();
+    await daemons.telehug("resume", "--socket", daemons.socket(active));
+    await page.getByText("Your fingers work here, and touch nobody.").waitFor();
+  });
+
   test("has nothing serious for axe-core, weighs little and asks nobody else", async () => {
     await lookAt("draw");
-    browser.assertLight(page);
+    await browser.assertLight(page);
     assert.deepEqual(page.wrong, []);
   });
 
@@ -237,7 +252,7 @@ describe("The page to draw on", () => {
     await rig.show(page);
     // As who plays does: sees where one is and how fast it rises, and puts a finger where it will be.
     const balloons = () => page.evaluate(async () => {
-      const {palettes} = await import("/palette.js");
+      const {palettes} = await import("/drawing/palette.js");
       const paper = document.getElementById("paper");
       const {width, height} = paper;
       const copy = new OffscreenCanvas(width, height).getContext("2d", {willReadFrequently: true});
@@ -276,7 +291,7 @@ describe("The page to draw on", () => {
 
   test("has a game with nothing serious for axe-core, which weighs little", async () => {
     await lookAt("game");
-    browser.assertLight(page);
+    await browser.assertLight(page);
     assert.deepEqual(page.wrong, []);
   });
 

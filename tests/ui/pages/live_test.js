@@ -48,6 +48,7 @@ describe("The parent's page", () => {
     const first = await browser.open(await daemons.link(active));
     if (web.pages.includes("setup.html")) {
       await first.waitForURL("**/setup.html");
+      await first.getByRole("button", {name: "Begin"}).waitFor();  // it has all that it asks for
       await first.goto(new URL("/", first.url()).href);
     }
     await first.getByText("telehug must learn where your screen is").waitFor();
@@ -197,6 +198,22 @@ describe("The parent's page", () => {
     await page.setViewportSize({width: 1280, height: 800});
   });
 
+  test("touches nobody while camera and screen are set up", async () => {
+    const setUp = (order) => page.evaluate(async (what) => {
+      const {command} = await import("/shared/page.js");
+      return command({command: "setup", order: what});
+    }, order);
+    await setUp("start");
+    await eventually(async () => await felt() === 0, "nothing is felt any more");
+    assert.equal((await touched()).length, 0, "the finger counts as lifted");
+    assert.equal((await status()).camera.why, "a set-up uses it");
+    const {touches_published: before} = (await status()).counters;
+    await eventually(async () => (await status()).camera.why === "a set-up uses it", "it goes on");
+    assert.equal((await status()).counters.touches_published, before);
+    await setUp("cancel");
+    await eventually(felt, "a box is felt again");
+  });
+
   test("holds touches back until they are to go out", async () => {
     await button("Never").click();
     await page.getByText("Touches don't go out: they are switched off here.").waitFor();
@@ -221,8 +238,8 @@ describe("The parent's page", () => {
     await browser.assertAccessible(page, "alone");
   });
 
-  test("asks nobody else for anything, complains of nothing and is light", () => {
+  test("asks nobody else for anything, complains of nothing and is light", async () => {
     assert.deepEqual(page.wrong, []);
-    browser.assertLight(page);
+    await browser.assertLight(page);
   });
 });

@@ -69,5 +69,29 @@ TEST(ConsistentTouches, AreThoseThatAgreeWithFiveMarks) {
   EXPECT_THAT(consistent_touches(seen), ElementsAre(0, 1));
 }
 
+TEST(ConsistentTouches, FarBesideFewMarksAreThoseThatAgreeWithThemAndTheOthers) {
+  RandomRigs random(77);
+  for (int i = 0; i < 10; ++i) {
+    const KnownRig rig = random.usual_rig();
+    RigObservations seen = random.observe(rig, 9, 0.3, 0.3);
+    // Five marks about a place, not exactly seen.
+    const ScreenPoint middle{0.5 * rig.screen.width_mm, 0.85 * rig.screen.height_mm};
+    for (int mark = 0; mark < 5; ++mark) {
+      const ScreenPoint at{middle.x_mm + 30 * (mark % 3 - 1), middle.y_mm + 20 * (mark % 2)};
+      ImagePoint image = rig.model.camera.project(at).value();
+      image.u_px += random.normal(0.25);
+      image.v_px += random.normal(0.25);
+      seen.marks.push_back({at, image, 1, 1, TouchEvidence::dot});
+    }
+    for (PointObservation& touch : seen.touches) {
+      touch.image = rig.model.camera.project(touch.screen).value();
+      touch.evidence = TouchEvidence::dot;
+    }
+    EXPECT_EQ(consistent_touches(seen).size(), seen.touches.size()) << i;
+    seen.touches[3].image.u_px += 60;
+    EXPECT_THAT(consistent_touches(seen), ElementsAre(0, 1, 2, 4, 5, 6, 7, 8)) << i;
+  }
+}
+
 }  // namespace
 }  // namespace telehug

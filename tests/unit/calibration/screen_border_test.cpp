@@ -101,6 +101,50 @@ TEST(ScreenBorder, SaysThatThereIsNoLine) {
   EXPECT_FALSE(find_screen_border(cv::Mat(), BorderChoice::longest).ok());
 }
 
+// A screen as light as the bezel and the desk about it: only the triangle is seen.
+cv::Mat triangle_alone(const cv::Point& left, const cv::Point& vertex, const cv::Point& right, int desk = 170,
+                       int triangle = 60) {
+  cv::Mat picture(720, 1280, CV_8UC3, cv::Scalar::all(desk));
+  cv::fillConvexPoly(picture, std::vector{vertex, left, {left.x, 719}, {right.x, 719}, right},
+                     cv::Scalar::all(triangle));
+  return picture;
+}
+
+TEST(TriangleAlone, IsFoundWhereNoLineMeetsIt) {
+  const cv::Mat picture = triangle_alone({234, 719}, {652, 582}, {958, 719});
+  EXPECT_FALSE(find_screen_border(picture, BorderChoice::triangle).ok());
+  const auto found = find_screen_border(picture, BorderChoice::triangle_alone);
+  ASSERT_TRUE(found.ok()) << found.error().message;
+  ASSERT_TRUE(found->vertex.has_value());
+  EXPECT_NEAR(found->vertex->u_px, 652, 3);
+  EXPECT_NEAR(found->vertex->v_px, 582, 2);
+  EXPECT_NEAR(found->line.v_at(652), 582, 2);
+  EXPECT_EQ(found->length_px, 0);
+}
+
+TEST(TriangleAlone, IsFoundWhenOneOfItsEdgesIsLevel) {
+  const auto found =
+      find_screen_border(triangle_alone({0, 628}, {687, 486}, {1279, 521}), BorderChoice::triangle_alone);
+  ASSERT_TRUE(found.ok()) << found.error().message;
+  EXPECT_NEAR(found->vertex->u_px, 687, 5);
+  EXPECT_NEAR(found->vertex->v_px, 486, 2);
+}
+
+TEST(TriangleAlone, IsAsLevelAsTheLongestLineNearIt) {
+  const BorderLine border{480 - 640 * 0.06, 0.06};
+  const auto found = find_screen_border(Scene(border, 200).triangle(600).picture(), BorderChoice::triangle_alone);
+  ASSERT_TRUE(found.ok()) << found.error().message;
+  EXPECT_NEAR(found->line.slope, 0.06, 0.005);
+  EXPECT_NEAR(found->line.v_at(600), border.v_at(600), 2);
+}
+
+TEST(TriangleAlone, IsDarkerThanWhatIsBesideIt) {
+  const auto found =
+      find_screen_border(triangle_alone({234, 719}, {652, 582}, {958, 719}, 60, 170), BorderChoice::triangle_alone);
+  ASSERT_FALSE(found.ok());
+  EXPECT_THAT(found.error().message, HasSubstr("no triangle found"));
+}
+
 TEST(LevelLines, CountOverlappingPiecesOnce) {
   for (const LevelLine& line : find_level_lines(Scene({500, 0.01}, 10).picture()))
     EXPECT_LE(line.length_px, 1280);

@@ -3,6 +3,7 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <opencv2/core.hpp>
@@ -54,6 +55,45 @@ TEST_F(TheSearch, FindsTheBestOfSeveralControls) {
   EXPECT_EQ(values_[1], tuned->values[0].value) << "what was found is set";
   EXPECT_EQ(values_[2], tuned->values[1].value);
   EXPECT_LT(tuned->measurements, 30);
+}
+
+TEST_F(TheSearch, TellsHowMuchOfItIsDone) {
+  const std::vector<CameraControl> controls{{1, "a", 0, 100, 1, 0, 0, false}, {2, "b", 0, 100, 1, 0, 0, false}};
+  std::vector<double> told;
+  const auto tuned = tune(controls, [] { return 1.0; }, {.progress = [&](double done) {
+                            told.push_back(done);
+                            return true;
+                          }});
+  ASSERT_TRUE(tuned);
+  EXPECT_TRUE(tuned->complete);
+  ASSERT_GT(told.size(), 20U);
+  EXPECT_TRUE(std::ranges::is_sorted(told));
+  EXPECT_DOUBLE_EQ(told.front(), 0);
+  EXPECT_DOUBLE_EQ(told.back(), 1);
+}
+
+TEST_F(TheSearch, EndsAtOnceWhenItIsToldTo) {
+  const std::vector<CameraControl> controls{{1, "a", 0, 100, 1, 0, 50, false}};
+  const auto tuned =
+      tune(controls, [&] { return 1.0 * values_[1]; }, {.progress = [](double done) { return done < 0.3; }});
+  ASSERT_TRUE(tuned);
+  EXPECT_FALSE(tuned->complete);
+  EXPECT_LT(tuned->measurements, 6);
+  EXPECT_EQ(values_[1], tuned->values[0].value) << "the best so far is set";
+}
+
+TEST_F(TheSearch, EndsAlsoWhileItWaitsForACamera) {
+  const std::vector<CameraControl> controls{{1, "a", 0, 100, 1, 0, 50, false}};
+  int asked = 0;
+  const auto tuned = tune_camera(
+      controls, [](const ControlValue&) -> Status { return Done{}; },
+      [&]() -> std::optional<double> {
+        clock_.advance(500ms);
+        return asked++ < 2 ? std::optional(1.0) : std::nullopt;
+      },
+      {.progress = [&](double) { return asked < 5; }}, clock_);
+  EXPECT_FALSE(tuned);
+  EXPECT_LT(asked, 8);
 }
 
 TEST_F(TheSearch, StepsTheExposureByFactors) {

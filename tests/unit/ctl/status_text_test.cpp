@@ -55,6 +55,13 @@ TEST(StatusText, SaysWhatTheLastTouchWas) {
   EXPECT_THAT(text, HasSubstr("last touch   stroke, box 7, phase up\n"));
 }
 
+TEST(StatusText, LeavesPlacesToPrograms) {
+  const std::string text = status_text({{"face", {{"found", true}, {"places_px", {{"x", 1}}}}},
+                                        {"touch_screen", {{"width_mm", 380}, {"reach_mm", {{8, 300}, {12, 294}}}}}});
+  EXPECT_THAT(text, HasSubstr("face         found yes\n"));
+  EXPECT_THAT(text, HasSubstr("touch_screen width_mm 380\n"));
+}
+
 TEST(StatusText, ShowsPartsItDoesNotKnow) {
   const std::string text = status_text({{"heater", {{"name", "left"}, {"celsius", 31}}}, {"mood", "calm"}});
   EXPECT_THAT(text, HasSubstr("heater       left, celsius 31\n"));
@@ -90,6 +97,14 @@ TEST(StatusText, LetsNoControlCharacterThrough) {
   const std::string text = status_text({{"peer", {{"connected", false}, {"reason", "\x1b]0;x\x07\n"}}}});
   EXPECT_THAT(text, Not(HasSubstr("\x1b")));
   EXPECT_THAT(text, HasSubstr("not connected: ?]0;x??"));
+}
+
+TEST(StatusText, LeavesOutWhatSaysNothing) {
+  const std::string text = status_text({{"side", "active"},
+                                        {"camera", {{"name", "virtual"}, {"open", false}, {"problems", Json::array()}}},
+                                        {"face", {{"finder", ""}, {"found", false}, {"pinned", nullptr}}}});
+  EXPECT_THAT(text, HasSubstr("virtual, closed\n"));
+  EXPECT_THAT(text, HasSubstr("found no\n"));
 }
 
 TEST(StatusText, BearsPartsOfAnyType) {

@@ -49,6 +49,8 @@ test("the standard deviation is a sample's, and 0 of one value", () => {
 test("whiskers end within one and a half boxes, what lies beyond is an outlier", () => {
   assert.deepEqual(boxPlot([1, 2, 3, 4, 5, 100, -100]),
                    {low: 1, first: 1.5, median: 3, third: 4.5, high: 5, outliers: [-100, 100]});
+  assert.deepEqual(boxPlot([1, 2, 3, 4, 5, 8.4]).outliers, []);
+  assert.deepEqual(boxPlot([1, 2, 3, 4, 5, 11]).outliers, [11]);
   assert.deepEqual(boxPlot([2]), {low: 2, first: 2, median: 2, third: 2, high: 2, outliers: []});
 });
 

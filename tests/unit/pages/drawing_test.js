@@ -4,11 +4,11 @@ import {test} from "node:test";
 
 import {load} from "./modules.js";
 
-const {Drawing} = await load("drawing.js");
-const {TouchFrames} = await load("touch_frames.js");
-const {smoothPath, pathData} = await load("smooth_path.js");
-const {svgOfDrawing} = await load("svg_of_drawing.js");
-const {screenMap} = await load("screen_map.js");
+const {Drawing} = await load("drawing/drawing.js");
+const {TouchFrames} = await load("fingers/touch_frames.js");
+const {smoothPath, pathData} = await load("drawing/smooth_path.js");
+const {svgOfDrawing} = await load("drawing/svg_of_drawing.js");
+const {screenMap} = await load("fingers/screen_map.js");
 
 const looks = {colour: 1, width_mm: 4};
 const at = (x_mm, y_mm) => ({x_mm, y_mm});

@@ -68,7 +68,17 @@ class TheWebSite : public testing::Test {
   }
 
   FakeClock clock;
-  WebSite site{{"telehug-test", {"status", "pause"}, {"news", "weather"}}, WebFiles({files})};
+  std::shared_ptr<const std::string> newest_picture;
+  int pictures_asked = 0;
+  WebSite site{{"telehug-test",
+                {"status", "pause"},
+                {"news", "weather"},
+                {{"camera.jpg",
+                  [this] {
+                    ++pictures_asked;
+                    return newest_picture;
+                  }}}},
+               WebFiles({files})};
   std::string cookie;
 };
 
@@ -133,6 +143,40 @@ TEST_F(TheWebSite, ServesFilesWithATagByWhichTheBrowserNeedsThemOnce) {
   request.if_none_match = "\"0\"";
   EXPECT_EQ(answer(request).status, 200U);
   EXPECT_EQ(fetch("/../web_site.cpp").status, 404U);
+}
+
+TEST_F(TheWebSite, ShowsTheNewestOfALivePictureWhichNobodyKeeps) {
+  enter();
+  newest_picture = std::make_shared<const std::string>("first");
+  EXPECT_EQ(fetch("/picture/camera.jpg").body, "first");
+  newest_picture = std::make_shared<const std::string>("second");
+  const WebAnswer picture = fetch("/picture/camera.jpg", "n=2");
+  EXPECT_EQ(picture.body, "second");
+  EXPECT_EQ(picture.type, "image/jpeg");
+  EXPECT_EQ(header(picture, "Cache-Control"), "no-store");
+  EXPECT_EQ(pictures_asked, 2);
+}
+
+TEST_F(TheWebSite, SaysThatThereIsNoPictureAtPresentOrNoneOfThatName) {
+  enter();
+  EXPECT_EQ(fetch("/picture/camera.jpg").status, 204U);
+  EXPECT_EQ(fetch("/picture/camera.jpg").body, "");
+  EXPECT_EQ(fetch("/picture/other.jpg").status, 404U);
+  EXPECT_EQ(fetch("/picture/").status, 404U);
+}
+
+TEST_F(TheWebSite, MakesNoPictureForStrangers) {
+  newest_picture = std::make_shared<const std::string>("secret");
+  EXPECT_EQ(answer(get("/picture/camera.jpg")).status, 401U);
+  enter();
+  WebRequest foreign = get("/picture/camera.jpg");
+  foreign.cookie = cookie;
+  foreign.origin = "http://evil.example";
+  EXPECT_EQ(answer(foreign).status, 403U);
+  foreign.origin = "";
+  foreign.host = "evil.example:8077";
+  EXPECT_EQ(answer(foreign).status, 421U);
+  EXPECT_EQ(pictures_asked, 0);
 }
 
 TEST_F(TheWebSite, GivesTheTextsInTheLanguageThatIsAskedForOrLiked) {

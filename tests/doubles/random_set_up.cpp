@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "bench/setup/random_set_up.hpp"
+#include "doubles/random_set_up.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -85,7 +85,7 @@ class Trial {
   Trial(std::uint64_t seed, const SetUpTrial& wanted)
       : wanted_(wanted),
         seed_(seed),
-        drawn_(still(random_rig(seed))),
+        drawn_(still(random_rig(seed), wanted.turned_deg)),
         rig_(drawn_.settings),
         session_(settings()),
         set_up_(rig_, session_),
@@ -110,7 +110,8 @@ class Trial {
   }
 
  private:
-  static RandomRig still(RandomRig rig) {
+  static RandomRig still(RandomRig rig, double turned_deg) {
+    rig.settings.camera.pitch_deg += turned_deg;
     rig.settings.motion = ScreenMotion::still;
     return rig;
   }
@@ -127,6 +128,7 @@ class Trial {
 
   bool repeat_one() {
     const SetupResult& result = *session_.state().result;
+    if (wanted_.trace) print_touches(result);
     if (result.good() && result.repeat.empty()) return false;
     for (const std::size_t dot : result.repeat) {
       if (++repeats_[dot] > most_repeats) continue;
@@ -134,6 +136,18 @@ class Trial {
       return session_.repeat(dot);
     }
     return false;
+  }
+
+  void print_touches(const SetupResult& result) const {
+    for (const DotOutcome& dot : result.dots) {
+      const ScreenPoint error = dot.error_mm.value_or(ScreenPoint{});
+      fmt::print("{} {:6.2f} s    dot at {:.0f}, {:.0f} mm {}: {:.1f} {:.1f} mm beside it\n", seed_, set_up_.seconds(),
+                 dot.dot.x_mm, dot.dot.y_mm,
+                 dot.skipped ? "left out"
+                 : dot.used  ? "used"
+                             : "not used",
+                 error.x_mm, error.y_mm);
+    }
   }
 
   void note() {
