@@ -17,5 +17,5 @@ telehug_test(test_pair_command KIND integration SUBJECT link
 add_dependencies(test_pair_command telehug)
 
 add_test(NAME test_units COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/integration/deploy/units_test.sh
-  ${CMAKE_BINARY_DIR}/deploy/systemd/telehug-passive.service $<TARGET_FILE:telehug-passive>)
+  ${CMAKE_BINARY_DIR}/deploy/systemd ${CMAKE_RUNTIME_OUTPUT_DIRECTORY})
 set_tests_properties(test_units PROPERTIES LABELS "integration;ops" TIMEOUT 60)
