@@ -1,0 +1,288 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: Apache-2.0
+"""Every block of code of the book is tried: commands run in the order of their page, on two PCs without hardware
+(two_pcs.py), and settings are read by the program that they are for. What stands behind the fence says what a block is:
+
+  sh parent | sh wearer | sh both   commands for that PC, or for each of them, whose daemon runs already unless the page
+                                    starts it itself
+  sh source                         commands for the folder of the sources
+  toml active | toml passive        settings of that side
+  toml jacket | toml limits         a jacket's profile; the wearer's own limits
+  text, ini                         to be read only; no command stands there
+
+What can't run here is in NOT_RUN, with its reason; its words are checked all the same. A command that neither runs nor
+stands there fails the test, and so does a line of these tables that no page needs any more."""
+import os
+import pathlib
+import re
+import subprocess
+import sys
+import time
+import unittest
+
+import pages
+from programs import PROGRAMS, Programs
+from two_pcs import Failure, TwoPcs, eventually
+
+BUILD = pathlib.Path(os.environ["TELEHUG_BIN"]).parent
+PROGRAMS_SAY = Programs(BUILD / "bin")
+
+# (what a command begins with, why it is not run here)
+NOT_RUN = [
+    ("sudo ", "changes this PC"),
+    ("telehug-active camera ", "needs a webcam"),
+    ("telehug jacket flash", "needs a board: test_jacket_flash has simulated ones"),
+    ("deploy/demo", "installs packages: test_app_demo runs what it does then"),
+    ("deploy/setup", "installs packages: tests/run begins with it"),
+    ("tests/run", "runs this test"),
+    ("cmake ", "has built this test"),
+]
+# Programs of Debian in commands that are not run.
+OF_DEBIAN = {"systemctl", "nft", "install", "cmake"}
+
+# (what stands in a command, what stands for it here)
+INSTEAD = [
+    ("serial:/dev/serial/by-id/usb-...", "serial:{jacket}"),
+    ("telehug pair accept CODE", "telehug pair accept {code}"),
+    ("telehug pair invite", "telehug pair invite --address 127.0.0.1"),
+    ("telehug jacket identify", "telehug jacket identify --seconds 0.1"),
+]
+# (what a command begins with, the codes that it may end with here, why)
+ENDS = [
+    ("telehug doctor", {0, 12}, "there is neither desktop nor webcam"),
+    ("telehug face next", {0, 9}, "one person is in the picture, and it is refused"),
+]
+
+
+def commands_of(text):
+    """Lines that go on behind a backslash are one."""
+    for line in re.sub(r"\\\n\s*", " ", text).splitlines():
+        line = line.strip()
+        if line and not line.startswith("#"):
+            yield line
+
+
+def reason_not_to_run(line):
+    """(its row's first word, why) in NOT_RUN; None if it is to run."""
+    return next((row for row in NOT_RUN if line.startswith(row[0])), None)
+
+
+def words_of(line):
+    return re.sub(r"\s#\s.*$", "", line).split()
+
+
+class Runner:
+    """Runs one page's commands. `used` gets the rows of the tables that were needed."""
+
+    def __init__(self, house, used):
+        self.house, self.used = house, used
+        self.invitation = self.inviting = None
+
+    def pcs(self, where):
+        pcs = {"parent": [self.house.parent], "wearer": [self.house.wearer], "source": [self.house.parent],
+               "both": [self.house.parent, self.house.wearer]}
+        if where not in pcs:
+            raise Failure("where does it run? say so behind the fence: sh parent, wearer, both or source")
+        return pcs[where]
+
+    def prepare(self, lines):
+        for pc, program in ((self.house.wearer, "telehug-passive"), (self.house.parent, "telehug-active")):
+            if any(line.startswith(f"{program} run") for line in lines):
+                continue
+            if pc is self.house.parent and not any(line.startswith("telehug-active calibrate") for line in lines):
+                self.house.calibrate()
+            pc.start_daemon(f"{program} run")
+        self.house.wait_until_connected()
+        self.house.wait_until_the_face_is_seen()
+
+    def run(self, pc, line):
+        command = line
+        for what, instead in INSTEAD:
+            if what in command:
+                self.used.add(what)
+                command = command.replace(what, self.filled(pc, instead))
+        words = words_of(command)
+        if words[0] in ("telehug-active", "telehug-passive") and words[1] == "run":
+            pc.start_daemon(command)
+            self.house.wait_until_connected()
+        elif words[0] == "telehug-jacket-sim":
+            pc.start(command).wait_for(lambda: True, "")
+        elif words[:3] == ["telehug", "pair", "invite"]:
+            if self.invitation:
+                self.invitation.end()
+                pc.started.remove(self.invitation)
+            self.invitation = pc.start(command)
+            self.house.code_of(self.invitation)
+            self.inviting = pc
+        elif words[:2] in (["telehug", "watch"], ["telehug-active", "look"]) and len(words) == 2:
+            watching = pc.start(command)
+            if words[1] == "look":
+                watching.wait_for(watching.said, "it sees nothing")
+        else:
+            self.run_to_the_end(pc, command)
+            if words[:2] == ["telehug", "send"]:
+                self.house.wait_until_the_face_is_seen()
+
+    def run_to_the_end(self, pc, command):
+        code, said = pc.run(command)
+        may = {0}
+        for begin, codes, _ in ENDS:
+            if command.startswith(begin):
+                self.used.add(begin)
+                may = codes
+        if code not in may:
+            raise Failure(f"{command}: ended with {code}:\n{said}\n{self.log_of(pc)}")
+        if command.startswith("telehug pair accept"):
+            eventually(lambda: not self.invitation.runs(), "the invitation goes on")
+            if self.invitation.process.returncode != 0:
+                raise Failure(f"{self.invitation.line}: {self.invitation.said()}")
+            self.invitation = None
+            eventually(lambda: all(p.daemon is None or "pair" in (p.status() or {}) for p in
+                                   (self.house.parent, self.house.wearer)), "the daemons do not take up the pair")
+            self.house.wait_until_connected()
+
+    @staticmethod
+    def log_of(pc):
+        return pc.daemon.said() if pc.daemon else ""
+
+    def filled(self, pc, text):
+        if "{code}" in text:
+            if not self.invitation:
+                raise Failure("nobody has invited on this page")
+            return text.format(code=self.house.code_of(self.invitation))
+        return text.format(jacket=self.house.jacket)
+
+    def finish(self):
+        if self.invitation:  # nobody accepts it on this page
+            self.invitation.end()
+            self.inviting.started.remove(self.invitation)
+
+
+def check_words(line):
+    """Of a command that is not run: is there such a command, with such options?"""
+    words = words_of(line)
+    if words[0] == "sudo":
+        words.pop(0)
+    if words[0] in PROGRAMS:
+        fault = PROGRAMS_SAY.fault_of(words)
+        if fault:
+            raise Failure(fault)
+        return
+    options = [word.split("=")[0] for word in words[1:] if word.startswith("--")]
+    if words[0].split("/")[0] in ("deploy", "tests"):
+        if not os.access(pages.SOURCE / words[0], os.X_OK):
+            raise Failure(f"there is no program {words[0]}")
+        known = (pages.SOURCE / words[0]).read_text() + PROGRAMS_SAY.help(("telehug-demo",))
+        for option in options:
+            if not re.search(rf"(^|[\s|]){option}\b", known):
+                raise Failure(f"{words[0]} has no option {option}")
+        return
+    if words[0] not in OF_DEBIAN:
+        raise Failure(f"what is {words[0]}?")
+    if words[0] == "cmake" and "--preset" in words:
+        if f'"name": "{words[words.index("--preset") + 1]}"' not in (pages.SOURCE / "CMakePresets.json").read_text():
+            raise Failure("there is no such preset")
+    if words[0] == "systemctl":
+        for unit in re.findall(r"(?<!@)\btelehug-\w+\b(?!-)", line):
+            if not re.match(r"telehug-(active|passive)$", unit):
+                raise Failure(f"there is no unit {unit}")
+
+
+def commands_on(page):
+    """(line of its block, where it runs, command), in the page's order."""
+    for block in page.blocks:
+        if block.words[:1] == ("sh",):
+            for line in commands_of(block.text):
+                yield block.line, block.words[1] if len(block.words) > 1 else "", line
+
+
+class Commands(unittest.TestCase):
+    def test_of_the_book_do_what_their_page_says(self):
+        self.used = set()
+        count = 0
+        for page in pages.book():
+            commands = list(commands_on(page))
+            count += len(commands)
+            if commands:
+                print(page.name, flush=True)
+                with self.subTest(page.name):
+                    self.try_all(page.name, commands)
+        self.assertGreater(count, 40)
+        tables = {entry[0] for entry in (*NOT_RUN, *INSTEAD, *ENDS)}
+        self.assertEqual(tables - self.used, set(), "no page needs these lines of the tables any more")
+
+    def try_all(self, name, commands):
+        run = []
+        for number, where, line in commands:
+            row = reason_not_to_run(line)
+            if not row:
+                run.append((number, where, line))
+                continue
+            self.used.add(row[0])
+            try:
+                check_words(line)
+            except Failure as failure:
+                self.fail(f"{name}:{number}: {line}: {failure}")
+            print(f"    not run ({row[1]}): {line}")
+        if not run:
+            return
+        with TwoPcs(BUILD) as house:
+            runner = Runner(house, self.used)
+            runner.prepare([line for _, _, line in run])
+            for number, where, line in run:
+                for pc in runner.pcs(where):
+                    began = time.monotonic()
+                    try:
+                        runner.run(pc, line)
+                    except (Failure, subprocess.TimeoutExpired) as failure:
+                        self.fail(f"{name}:{number}: on the {pc.name}'s PC: {line}\n{failure}")
+                    print(f"    run on the {pc.name}'s, {time.monotonic() - began:.1f} s: {line}")
+            runner.finish()
+
+
+class Settings(unittest.TestCase):
+    def test_of_the_book_are_taken_by_their_program(self):
+        checks = {"active": ["telehug", "config", "check", "active", "--config"],
+                  "passive": ["telehug", "config", "check", "passive", "--config"],
+                  "jacket": ["telehug-passive", "check-jacket"],
+                  "limits": ["telehug-passive", "check-jacket", f"{pages.SOURCE}/deploy/jackets/duemilanove-16.toml",
+                             "--overrides"]}
+        seen = 0
+        with TwoPcs(BUILD) as house:
+            file = house.folder / "settings.toml"
+            for page in pages.book():
+                for block in page.blocks:
+                    if block.words[:1] != ("toml",):
+                        continue
+                    with self.subTest(f"{page.name}:{block.line}"):
+                        seen += 1
+                        self.assertIn(block.words[1:], [(name,) for name in checks])
+                        file.write_text(block.text + "\n")
+                        check = checks[block.words[1]]
+                        ended = subprocess.run([BUILD / "bin" / check[0], *check[1:], file], capture_output=True, text=True,
+                                               timeout=20, check=False)
+                        self.assertEqual(ended.returncode, 0, ended.stdout + ended.stderr)
+        self.assertGreater(seen, 1)
+
+
+class Blocks(unittest.TestCase):
+    def test_of_the_book_say_what_they_are(self):
+        for page in pages.book():
+            for block in page.blocks:
+                with self.subTest(f"{page.name}:{block.line}"):
+                    self.assertIn(block.words[:1], [("sh",), ("toml",), ("text",), ("ini",)],
+                                  "what is it? say so behind a fence of ```")
+
+    def test_that_are_only_read_hold_no_commands(self):
+        for page in pages.book():
+            for block in page.blocks:
+                if block.words[:1] != ("text",):
+                    continue
+                for line in commands_of(block.text):
+                    with self.subTest(f"{page.name}:{block.line}: {line}"):
+                        self.assertNotIn(line.split()[0], {*PROGRAMS, *OF_DEBIAN, "sudo"})
+
+
+if __name__ == "__main__":
+    sys.stdout.reconfigure(line_buffering=True)
+    unittest.main()
