@@ -54,6 +54,10 @@ ENDS = [
 ]
 
 
+# After this page a touch is felt: the rig's user touches the screen now and then.
+LEADS_TO_A_TOUCH = "docs/getting-started.md"
+
+
 def commands_of(text):
     """Lines that go on behind a backslash are one."""
     for line in re.sub(r"\\\n\s*", " ", text).splitlines():
@@ -106,7 +110,8 @@ class Runner:
             pc.start_daemon(command)
             self.house.wait_until_connected()
         elif words[0] == "telehug-jacket-sim":
-            pc.start(command).wait_for(lambda: True, "")
+            port = pc.work / words[words.index("--link") + 1]
+            pc.start(command).wait_for(port.is_symlink, "there is no port")
         elif words[:3] == ["telehug", "pair", "invite"]:
             if self.invitation:
                 self.invitation.end()
@@ -132,6 +137,8 @@ class Runner:
                 may = codes
         if code not in may:
             raise Failure(f"{command}: ended with {code}:\n{said}\n{self.log_of(pc)}")
+        if command.startswith("telehug open") and "/enter?link=" not in (pc.home / "opened").read_text():
+            raise Failure("the browser was shown no link")
         if command.startswith("telehug pair accept"):
             eventually(lambda: not self.invitation.runs(), "the invitation goes on")
             if self.invitation.process.returncode != 0:
@@ -238,6 +245,10 @@ class Commands(unittest.TestCase):
                         self.fail(f"{name}:{number}: on the {pc.name}'s PC: {line}\n{failure}")
                     print(f"    run on the {pc.name}'s, {time.monotonic() - began:.1f} s: {line}")
             runner.finish()
+            if name == LEADS_TO_A_TOUCH:
+                began = time.monotonic()
+                house.wait_until_a_touch_is_felt()
+                print(f"    a touch is felt after {time.monotonic() - began:.1f} s more")
 
 
 class Settings(unittest.TestCase):

@@ -166,20 +166,25 @@ class TwoPcs:
         self.build = pathlib.Path(build)
 
     def __enter__(self):
-        self.stack = contextlib.ExitStack()
-        self.folder = pathlib.Path(self.stack.enter_context(tempfile.TemporaryDirectory(prefix="telehug-docs-")))
-        peer = f"[peer]\ndomain = {self.stack.enter_context(unique_domain())}\nloopback_only = true\n"
+        with contextlib.ExitStack() as stack:
+            self.set_up(stack)
+            self.stack = stack.pop_all()
+        return self
+
+    def set_up(self, stack):
+        self.folder = pathlib.Path(stack.enter_context(tempfile.TemporaryDirectory(prefix="telehug-docs-")))
+        peer = f"[peer]\ndomain = {stack.enter_context(unique_domain())}\nloopback_only = true\n"
         self.jacket = self.folder / "jacket"
         fixtures = SOURCE / "tests" / "fixtures"
         self.parent = Pc(self, "parent", "active", [],
-                         f'[camera]\nsource = "virtual"\n[body_map]\npicture = "{fixtures}/chat/01_full.jpg"\n{peer}')
+                         f'[camera]\nsource = "virtual"\nfps = 10\n[body_map]\npicture = "{fixtures}/chat/01_full.jpg"\n{peer}')
         self.wearer = Pc(self, "wearer", "passive", ["telehug-jacket-sim"],
                          f'[jacket]\nprofile = "{SOURCE}/deploy/jackets/duemilanove-16.toml"\n'
                          f'link = "serial:{self.jacket}"\n{peer}')
-        self.stack.callback(self.kill_all)
-        self.simulator = self.wearer.start(f"telehug-jacket-sim --link {self.jacket}")
+        stack.callback(self.kill_all)
+        self.pins = self.folder / "pins.csv"
+        self.simulator = self.wearer.start(f"telehug-jacket-sim --link {self.jacket} --pins {self.pins}")
         self.simulator.wait_for(self.jacket.is_symlink, "there is no simulated jacket")
-        return self
 
     def __exit__(self, kind, *_):
         with self.stack:
@@ -206,6 +211,12 @@ class TwoPcs:
 
         if self.parent.daemon and self.wearer.daemon:
             eventually(seen, "the face in the picture is not found")
+
+    def wait_until_a_touch_is_felt(self):
+        def ran():
+            return re.search(r",on$", self.pins.read_text(), re.MULTILINE)
+
+        eventually(ran, "no motor has run")
 
     def calibrate(self):
         code, said = self.parent.run("telehug-active calibrate")
