@@ -88,6 +88,19 @@ class Pages(unittest.TestCase):
         self.assertGreater(seen, 30)
 
 
+class TheMaths(unittest.TestCase):
+    def test_tells_the_times_that_stand_in_the_files_that_it_names(self):
+        page = pages.parse(pages.SOURCE / "docs" / "maths.md")
+        text = page.path.read_text()
+        table = text[text.index("## Dead man's timings"):]
+        rows = re.findall(r"^\| (.+) \| (\d+)[^|]* \| .*\]\(([^)]+)\) \|$", table[:table.index("\n## ", 1)], re.MULTILINE)
+        self.assertGreater(len(rows), 7)
+        for what, milliseconds, file in rows:
+            with self.subTest(what):
+                source = (page.path.parent / file).resolve().read_text()
+                self.assertRegex(source, rf"(= {milliseconds}ms;|_ms = {milliseconds};|WDTO_{milliseconds}MS)")
+
+
 class TheReader(unittest.TestCase):
     """Of these tests themselves."""
 
