@@ -8,7 +8,7 @@ import urllib.parse
 
 import pages
 
-HOSTS = {"semver.org"}
+HOSTS = {"semver.org", "github.com"}
 
 
 class Links(unittest.TestCase):
