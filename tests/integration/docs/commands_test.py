@@ -281,6 +281,23 @@ class Commands(unittest.TestCase):
         self.assertEqual(tables - used, set(), "no page needs these lines of the tables any more")
 
 
+class Status(unittest.TestCase):
+    def test_shows_the_lines_that_troubleshooting_looks_for(self):
+        text = (pages.SOURCE / "docs" / "troubleshooting.md").read_text()
+        table = re.search(r"^\| it shows .*\n((?:\|.*\n)+)", text, re.MULTILINE).group(1)
+        wanted = re.findall(r"^\| `([a-z_]+(?: touch)?)", table, re.MULTILINE)
+        self.assertGreater(len(wanted), 7)
+        with TwoPcs(BUILD) as house:
+            Runner(house, set()).prepare([("both", "telehug status")])
+            eventually(lambda: house.wearer.status().get("last_touch"), "the wearer's side hears of no touch")
+            house.parent.run("telehug stop")
+            eventually(lambda: house.wearer.status()["problems"], "the other side does not say who stopped")
+            said = house.parent.run("telehug status")[1] + house.wearer.run("telehug status")[1]
+        for line in wanted:
+            with self.subTest(line):
+                self.assertRegex(said, rf"(?m)^ +{line} ")
+
+
 class Settings(unittest.TestCase):
     def test_are_taken_by_their_program(self):
         checks = {"active": ["telehug", "config", "check", "active", "--config"],
