@@ -16,6 +16,8 @@ BIN = os.environ["TELEHUG_BIN"]
 STATUS = {"camera.problems", "jacket.heaters"}
 FILES = (".toml", ".png", ".jpg", ".json", ".csv", ".cpp", ".hpp", ".net", ".sh")
 
+EXIT_CODE = re.compile(r"(?:exit codes?|ends? with(?: exit code)?|exits(?: with)?)\s+(\d+)\b")
+
 
 def keys():
     shown = subprocess.run([f"{BIN}/telehug", "config", "show", "--json"], capture_output=True, text=True, check=True,
@@ -52,7 +54,7 @@ class Pages(unittest.TestCase):
         self.assertTrue({0, 3, 12, 15} <= known)
         seen = 0
         for page in pages.all_pages():
-            for line, match in page.find(re.compile(r"(?:exit codes?|ends? with(?: exit code)?|exits(?: with)?)\s+(\d+)\b")):
+            for line, match in page.find(EXIT_CODE):
                 seen += 1
                 with self.subTest(f"{page.name}:{line}: {match.group(0)}"):
                     self.assertIn(int(match.group(1)), known)
@@ -93,7 +95,8 @@ class TheMaths(unittest.TestCase):
         page = pages.parse(pages.SOURCE / "docs" / "maths.md")
         text = page.path.read_text()
         table = text[text.index("## Dead man's timings"):]
-        rows = re.findall(r"^\| (.+) \| (\d+)[^|]* \| .*\]\(([^)]+)\) \|$", table[:table.index("\n## ", 1)], re.MULTILINE)
+        table = table[:table.index("\n## ", 1)]
+        rows = re.findall(r"^\| (.+) \| (\d+)[^|]* \| .*\]\(([^)]+)\) \|$", table, re.MULTILINE)
         self.assertGreater(len(rows), 7)
         for what, milliseconds, file in rows:
             with self.subTest(what):

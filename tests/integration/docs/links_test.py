@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: Apache-2.0
-"""Links between the repository's pages lead somewhere. Nothing is fetched: a link to another host fails unless that host
-is one of the few below."""
+"""Links between the repository's pages lead somewhere. Nothing is fetched: a link to another host fails unless that
+host is one of the few below."""
 import pathlib
 import unittest
 import urllib.parse

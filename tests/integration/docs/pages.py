@@ -35,7 +35,7 @@ class Page:
         return str(self.path.relative_to(SOURCE))
 
     def paragraphs(self):
-        """(number of the first line, text): what a link or a span of code may go on through. A table's rows are apart."""
+        """(number of the first line, text): where links and spans of code end. A table's rows are apart."""
         lines = []
         for number, line in (*self.prose, (0, "")):
             if line.strip() and not line.startswith("|"):

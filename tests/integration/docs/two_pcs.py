@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Two PCs to run a page's commands on: each has a home and programs of its own, and they hear each other over loopback in
-a DDS domain that nobody else uses. A virtual rig takes the webcam's place, a picture the screen's, the firmware in a
+"""Two PCs to run a page's commands on: each has a home and programs of its own, and they hear each other over loopback
+in a DDS domain that nobody else uses. A virtual rig takes the webcam's place, a picture the screen's, the firmware in a
 simulated microcontroller the jacket's."""
 import contextlib
 import fcntl
@@ -41,7 +41,8 @@ def unique_domain():
     numbers = list(range(1, 101))
     random.shuffle(numbers)
     for number in numbers:
-        with open(pathlib.Path(tempfile.gettempdir()) / f"telehug-test-domain-{number}.lock", "a", encoding="utf-8") as lock:
+        file = pathlib.Path(tempfile.gettempdir()) / f"telehug-test-domain-{number}.lock"
+        with open(file, "a", encoding="utf-8") as lock:
             try:
                 fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
             except OSError:
@@ -177,7 +178,8 @@ class TwoPcs:
         self.jacket = self.folder / "jacket"
         fixtures = SOURCE / "tests" / "fixtures"
         self.parent = Pc(self, "parent", "active", [],
-                         f'[camera]\nsource = "virtual"\nfps = 10\n[body_map]\npicture = "{fixtures}/chat/01_full.jpg"\n{peer}')
+                         '[camera]\nsource = "virtual"\nfps = 10\n'
+                         f'[body_map]\npicture = "{fixtures}/chat/01_full.jpg"\n{peer}')
         self.wearer = Pc(self, "wearer", "passive", ["telehug-jacket-sim"],
                          f'[jacket]\nprofile = "{SOURCE}/deploy/jackets/duemilanove-16.toml"\n'
                          f'link = "serial:{self.jacket}"\n{peer}')
@@ -225,5 +227,5 @@ class TwoPcs:
 
     def code_of(self, invitation):
         """That an invitation prints."""
-        found = invitation.wait_for(lambda: re.search(r"^[0-9A-Z]{5}(-[0-9A-Z]{5})+$", invitation.said(), re.MULTILINE), "no code is printed")
-        return found.group(0)
+        code = re.compile(r"^[0-9A-Z]{5}(-[0-9A-Z]{5})+$", re.MULTILINE)
+        return invitation.wait_for(lambda: code.search(invitation.said()), "no code is printed").group(0)
