@@ -16,16 +16,18 @@ PROGRAMS_SAY = Programs(BUILD / "bin")
 # (what a command begins with, why it is not run here)
 NOT_RUN = [
     ("sudo ", "changes this PC"),
+    ("systemctl --user ", "needs a user's service manager: tests/system"),
     ("telehug-active camera ", "needs a webcam"),
     ("telehug jacket flash", "needs a board: test_jacket_flash has simulated ones"),
     ("avrdude ", "needs a board: test_jacket_flash has simulated ones"),
     ("deploy/demo", "installs packages: test_app_demo runs what it does then"),
     ("deploy/setup", "installs packages: tests/run begins with it"),
+    ("deploy/packages/build", "takes a minute: test_packages does it and installs them"),
     ("tests/run", "runs this test"),
     ("cmake ", "has built this test"),
 ]
 # Programs of Debian in commands that are not run.
-OF_DEBIAN = {"avrdude", "systemctl", "nft", "install", "cmake"}
+OF_DEBIAN = {"apt", "avrdude", "cmake", "install", "nft", "systemctl", "systemd-sysusers", "systemd-tmpfiles", "usermod"}
 
 # (what stands in a command, what stands for it here)
 INSTEAD = [
@@ -187,8 +189,9 @@ def check_words(line):
         if f'"name": "{words[words.index("--preset") + 1]}"' not in (pages.SOURCE / "CMakePresets.json").read_text():
             raise Failure("there is no such preset")
     if words[0] == "systemctl":
-        for unit in re.findall(r"(?<!@)\btelehug-\w+\b(?!-)", line):
-            if not re.match(r"telehug-(active|passive)$", unit):
+        units = {file.name.split(".")[0] for file in (pages.SOURCE / "deploy" / "systemd").glob("*.service.in")}
+        for unit in re.findall(r"(?<!@)\btelehug-[\w-]+", line):
+            if unit not in units:
                 raise Failure(f"there is no unit {unit}")
 
 
