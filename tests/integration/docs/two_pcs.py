@@ -101,7 +101,7 @@ class Pc:
         (self.home / "run").chmod(0o700)
         for program in ("telehug", f"telehug-{side}", *programs):
             self.install(house.build / "bin" / program, self.home / "bin" / program)
-        (self.home / "firmware").symlink_to(house.build / "firmware")
+        (self.home / "share").symlink_to(house.build / "share")
         browser = self.home / "bin" / "xdg-open"
         browser.write_text(f'#!/bin/sh\necho "$1" >>{self.home}/opened\n')
         browser.chmod(0o755)
@@ -181,8 +181,7 @@ class TwoPcs:
                          '[camera]\nsource = "virtual"\nfps = 10\n'
                          f'[body_map]\npicture = "{fixtures}/chat/01_full.jpg"\n{peer}')
         self.wearer = Pc(self, "wearer", "passive", ["telehug-jacket-sim"],
-                         f'[jacket]\nprofile = "{SOURCE}/deploy/jackets/duemilanove-16.toml"\n'
-                         f'link = "serial:{self.jacket}"\n{peer}')
+                         f'[jacket]\nlink = "serial:{self.jacket}"\n{peer}')
         stack.callback(self.kill_all)
         self.pins = self.folder / "pins.csv"
         self.simulator = self.wearer.start(f"telehug-jacket-sim --link {self.jacket} --pins {self.pins}")
