@@ -19,6 +19,7 @@ const telehug::Program program{
             {"telehug watch --json --count 1", "waits for the next event"},
             {"telehug metrics --side passive", "counters and latencies for a scraper (OpenMetrics)"},
             {"telehug open", "this side's pages in the browser"},
+            {"telehug open --start", "what the desktop's entry does: also starts the parent's side"},
             {"telehug open passive --print", "only the link"},
             {"telehug stop --reason \"dinner\"", "everything off, on both PCs"},
             {"telehug resume", "ends this PC's own stop"},

@@ -10,6 +10,7 @@
 #include "ctl/command.hpp"
 #include "ctl/pair_side.hpp"
 #include "ctl/pairing_steps.hpp"
+#include "files/folder_owner.hpp"
 #include "pairing/wireguard.hpp"
 
 namespace telehug {
@@ -75,6 +76,7 @@ class PairCommands {
         }
         wish.wireguard = *endpoint;
       }
+      const AsOwnerOf owner(wish.folder);
       result = step(wish);
     });
     return command;

@@ -16,6 +16,10 @@ telehug_test(test_pair_command KIND integration SUBJECT link
   DEPS nlohmann_json::nlohmann_json)
 add_dependencies(test_pair_command telehug)
 
+add_test(NAME test_units COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/integration/deploy/units_test.sh
+  ${CMAKE_BINARY_DIR}/deploy/systemd ${CMAKE_RUNTIME_OUTPUT_DIRECTORY})
+set_tests_properties(test_units PROPERTIES LABELS "integration;ops" TIMEOUT 60)
+
 telehug_test(test_references KIND integration SUBJECT ops
   SOURCES integration/cli/completions_test.cpp integration/cli/manual_test.cpp
   DEPS telehug_common)
@@ -31,3 +35,7 @@ telehug_test(test_doctor KIND integration SUBJECT ops
   SOURCES integration/ctl/doctor_test.cpp
   DEPS telehug_exit_codes nlohmann_json::nlohmann_json)
 add_dependencies(test_doctor telehug)
+
+add_test(NAME test_packages COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/integration/deploy/packages_test.sh
+  ${PROJECT_SOURCE_DIR} ${CMAKE_BINARY_DIR})
+set_tests_properties(test_packages PROPERTIES LABELS "integration;ops" TIMEOUT 600)

@@ -10,12 +10,14 @@
 #include <algorithm>
 #include <csignal>
 #include <cstdio>
+#include <filesystem>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "cli/program.hpp"
 #include "common/clock.hpp"
+#include "common/data_folder.hpp"
 #include "simulator/heater_faults.hpp"
 #include "simulator/pin_activity.hpp"
 #include "simulator/pty_bridge.hpp"
@@ -57,12 +59,7 @@ const BoardWiring& board_of(const Options& options) {
 
 std::filesystem::path firmware_of(const Options& options) {
   if (!options.firmware.empty()) return options.firmware;
-  const std::string_view elf = board_of(options).elf;
-  std::error_code ignored;
-  const auto program = std::filesystem::read_symlink("/proc/self/exe", ignored);
-  auto built = program.parent_path().parent_path() / "firmware" / elf;
-  if (std::filesystem::exists(built, ignored)) return built;
-  return std::filesystem::path(TELEHUG_INSTALLED_FIRMWARE) / elf;
+  return data_folder() / "firmware" / board_of(options).elf;
 }
 
 // SIGTERM and SIGINT end the program, SIGUSR1 cuts the firmware's input or joins it again.
