@@ -90,7 +90,6 @@ TEST_F(BrokenDesktop, ACalibrationOfAnotherMonitorIsNamed) {
 
 TEST_F(BrokenDesktop, AMonitorThatDoesNotTellItsSizeIsNamed) {
   fs::remove(root() / "sys/class/drm/card0-DP-1/edid");
-  write("state/telehug/rig.toml", "[screen\n");
   fs::remove(state() / "rig.toml");
   expect("active", {"monitor's size unknown", "fail", "calibration", "no calibration at", "with a ruler"});
 }
