@@ -55,7 +55,7 @@ class Ruleset {
           is_of_ipv4(*chain))
         chains.push_back(&*chain);
     }
-    std::ranges::stable_sort(chains, [](const Json* a, const Json* b) {
+    std::ranges::sort(chains, [](const Json* a, const Json* b) {
       const auto priority = [](const Json& chain) {
         const auto prio = chain.find("prio");
         return prio != chain.end() && prio->is_number_integer() ? prio->get<int>() : 0;
