@@ -30,6 +30,7 @@ void add_jacket(CLI::App& app, ExitCode& result);
 void add_open(CLI::App& app, ExitCode& result);
 void add_config(CLI::App& app, ExitCode& result);
 void add_doctor(CLI::App& app, ExitCode& result);
+void add_report(CLI::App& app, ExitCode& result);
 void add_pair(CLI::App& app, ExitCode& result);
 void add_version(CLI::App& app, ExitCode& result);
 

@@ -57,6 +57,8 @@ const telehug::Program program{
             {"telehug config diff", "only what is not as shipped"},
             {"telehug doctor", "what keeps telehug from working here, and what mends it"},
             {"telehug doctor passive --json", "the wearer's side alone, for programs"},
+            {"telehug doctor passive --bootloader", "also the jacket's bootloader, which resets the jacket"},
+            {"telehug report --output report.txt", "one file for a bug report, to read before it is sent"},
             {"telehug version", "of this program"},
         },
     .exits = {ExitCode::ok, ExitCode::internal, ExitCode::usage, ExitCode::config, ExitCode::device,
@@ -86,6 +88,7 @@ void add_commands(CLI::App& app, ExitCode& result) {
   telehug::add_pair(app, result);
   telehug::add_config(app, result);
   telehug::add_doctor(app, result);
+  telehug::add_report(app, result);
   telehug::add_version(app, result);
 }
 
