@@ -105,6 +105,7 @@ class ActiveDaemon {
   void adopt_rig();
   void adopt_camera();
   [[nodiscard]] bool camera_wanted(Timestamp now);
+  [[nodiscard]] bool used_by_page() const;  // any thread
   void take_frame();
   void rest();
   void judge_sending(bool screen_known);
@@ -125,6 +126,7 @@ class ActiveDaemon {
   [[nodiscard]] bool follow_pairs();
   void keep_connections();
   [[nodiscard]] std::vector<ConnectionStatus> connections() const;
+  [[nodiscard]] std::string why_stopped() const;  // any thread; empty: nobody has
   void answer_commands();
   nlohmann::json order_face(const nlohmann::json& request);
   nlohmann::json order_hug(const nlohmann::json& request);
@@ -191,6 +193,7 @@ class ActiveDaemon {
   mutable std::mutex words_mutex_;  // guards the sentences below, which the control thread reads
   std::string camera_name_;
   std::string rig_problem_;
+  std::string setup_problem_;
   std::string face_note_;
   std::optional<SeenHug> last_hug_;
   std::string hug_problem_;  // why it was not seen on the desktop

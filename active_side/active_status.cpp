@@ -7,7 +7,6 @@
 #include <cmath>
 
 #include "active_daemon.hpp"
-#include "body_map/vitruvian_grid.hpp"
 #include "body_map_json.hpp"
 #include "common/names.hpp"
 #include "daemon/status_parts.hpp"
@@ -16,8 +15,6 @@ namespace telehug {
 namespace {
 
 using Json = nlohmann::json;
-
-constexpr Duration desktop_interval = 1s;
 
 Json touch_json(const SentTouch& touch) {
   const Contact& contact = touch.contact;
@@ -156,7 +153,7 @@ Json ActiveDaemon::order_face(const Json& request) {
 
 Json ActiveDaemon::sending_json(const TouchThreadState& state) const {
   if (!state.face) return {{"name", name_of(sending_switch_.mode())}, {"on", false}, {"why", "not calibrated"}};
-  const SendingVerdict verdict = sending_switch_.judge(state.face->view(), fingers_.wanted());
+  const SendingVerdict verdict = sending_switch_.judge(state.face->view(), used_by_page());
   Json sending = {{"name", name_of(sending_switch_.mode())}, {"on", verdict == SendingVerdict::sends}};
   switch (verdict) {
     case SendingVerdict::sends:
@@ -188,6 +185,8 @@ Json ActiveDaemon::problems(const TouchThreadState& state, const FaceState& face
     if (!rig_problem_.empty())
       list.push_back(
           problem_json(rig_problem_, "set it up on the page that `telehug open` shows, or correct the file"));
+    if (!setup_problem_.empty())
+      list.push_back(problem_json(setup_problem_, "set up another camera, or start telehug-active again"));
     if (!face_note_.empty()) list.push_back(problem_json(face_note_, "telehug works, but not as well as it could"));
     if (!desktop_problem_.empty())
       list.push_back(problem_json(desktop_problem_, "or turn off [overlay] show and [sending] hotkey"));
@@ -202,6 +201,10 @@ Json ActiveDaemon::problems(const TouchThreadState& state, const FaceState& face
   add_absences(list, Side::active, connections);
   for (const Json& problem : camera_problems(state))
     list.push_back(problem);
+  if (setup_->camera_hangs()) {
+    list.push_back(problem_json("the camera does not answer, and the set-up waits for it",
+                                "unplug it and plug it in again; if that does not help, start telehug-active again"));
+  }
   if (feedback_) {
     if (const std::string problem = feedback_->problem(); !problem.empty())
       list.push_back(problem_json("the actuator at the toucher's finger: " + problem,
@@ -214,8 +217,7 @@ Json ActiveDaemon::problems(const TouchThreadState& state, const FaceState& face
   if (state.recording_over) list.push_back(problem_json("the recording is over", "start again to replay it"));
   if (no_face(face)) {
     list.push_back(problem_json(face.problem, "touches are not sent until a face is found; check [body_map]"));
-  } else if (face.open &&
-             sending_switch_.judge(state.face->view(), fingers_.wanted()) == SendingVerdict::never_pinned) {
+  } else if (face.open && sending_switch_.judge(state.face->view(), used_by_page()) == SendingVerdict::never_pinned) {
     list.push_back(problem_json("touches don't go out: it is not known whether the video chat is in front",
                                 "run `telehug send on`; on X11 [body_map] window pins the window of the chat"));
   }
@@ -230,9 +232,7 @@ Json ActiveDaemon::status() const {
   }
   const FaceState face = state.face ? state.face->state() : FaceState{};
   const auto connected = connections();
-  const bool peers_stopped =
-      !connected.empty() && std::ranges::all_of(connected, [](const auto& wearer) { return wearer.stopped_by_peer; });
-  const bool stopped = stop_.stopped() || peers_stopped;
+  const bool stopped = !why_stopped().empty();
   const bool alive = any_alive(connected);
   const bool fault = state.camera_lost || state.camera_drift == DriftState::moved ||
                      !picture_problem(state.picture).is_null() || !state.face || no_face(face);
@@ -303,54 +303,6 @@ Json ActiveDaemon::status() const {
   }
   pages_.add_status(answer);
   return answer;
-}
-
-void ActiveDaemon::tell_local_touch() {
-  std::string works;
-  std::string problems;
-  for (const LocalTouchState& output : local_touch_.states()) {
-    if (output.open) works += (works.empty() ? "" : ", ") + output.name;
-    if (!output.problem.empty()) problems += (problems.empty() ? "" : "; ") + output.problem;
-  }
-  if (!works.empty() || !problems.empty()) {
-    say_local_touch_.say(problems.empty() ? spdlog::level::info : spdlog::level::warn,
-                         problems.empty() ? "touches are used on this PC: " + works : problems);
-  }
-}
-
-void ActiveDaemon::show_touched_box(const FaceState& face, FaceWorker* worker) {
-  if (!overlay_) return;
-  if (face.map.version == 0) touched_box_.clear();
-  const auto& shown = touched_box_.shown();
-  const auto box = shown ? box_rect(face.map, shown->box) : std::nullopt;
-  if (clock_.now() < glows_until_ && face.map.version != 0 && face.scale) {
-    const cv::Rect2d person_px = face.scale->to_px(face.map.face) | face.scale->to_px(face.map.visible);
-    overlay_->show({cv::Point(person_px.tl()), cv::Point(person_px.br())}, OverlayState::hugged);
-  } else if (box && face.scale) {
-    const cv::Rect2d box_px = face.scale->to_px(*box);
-    overlay_->show({cv::Point(box_px.tl()), cv::Point(box_px.br())},
-                   shown->felt ? OverlayState::felt : OverlayState::touched);
-  } else {
-    overlay_->hide();
-  }
-  if (worker != nullptr) worker->leave_out(overlay_->areas());
-}
-
-// What this desktop does for us besides showing the chat; what is not there is looked for once a second.
-void ActiveDaemon::serve_desktop() {
-  if (hotkey_ && hotkey_->is_open() && hotkey_->pressed()) sending_switch_.toggle();
-  const Timestamp now = clock_.now();
-  if (now - desktop_served_ < desktop_interval) return;
-  desktop_served_ = now;
-  std::string problem;
-  const auto note = [&problem](const Status& opened, const std::string& last_error) {
-    if (problem.empty()) problem = opened ? last_error : opened.error().message;
-  };
-  if (overlay_) note(overlay_->open(), overlay_->last_error());
-  if (hotkey_) note(hotkey_->open(), hotkey_->last_error());
-  if (!problem.empty()) say_desktop_.say(spdlog::level::warn, problem);
-  const std::lock_guard lock(words_mutex_);
-  desktop_problem_ = std::move(problem);
 }
 
 void ActiveDaemon::tell_watchers() {

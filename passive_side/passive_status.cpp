@@ -117,7 +117,7 @@ void PassiveDaemon::tell_watchers() {
   } else if (now.link.state == LinkState::armed) {
     say_jacket_.say(spdlog::level::info, fmt::format("jacket ready: {}, firmware {}, {} motors", now.link.device,
                                                      now.link.firmware_version, now.link.motor_count));
-  } else {
+  } else if (!now.link.problem.empty()) {  // else it has only begun
     say_jacket_.say(spdlog::level::warn, fmt::format("no jacket answers on {}: {}", now.link.device, now.link.problem));
   }
 }

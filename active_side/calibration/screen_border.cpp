@@ -195,6 +195,7 @@ std::optional<ScreenBorder> triangle_alone(const cv::Mat& bgr, const std::vector
     if (gap_px > largest_gap_part * bgr.cols) continue;
     if (!darker_below(grey, triangle.left) || !darker_below(grey, triangle.right)) continue;
     const ImagePoint& vertex = triangle.vertex;
+    if (vertex.u_px < 0 || vertex.v_px < 0 || vertex.u_px >= bgr.cols || vertex.v_px >= bgr.rows) continue;
     const auto level = std::find_if(lines.begin(), lines.end(), [&](const LevelLine& line) {
       return line.length_px >= least_part_of_width * bgr.cols &&
              distance_px(line.line, vertex) < farthest_part * bgr.rows;

@@ -3,41 +3,21 @@
 
 #include <fmt/format.h>
 
-#include <array>
+#include <algorithm>
 #include <stdexcept>
 #include <utility>
 
-#include "detection/touch_calibration.hpp"
 #include "setup/dot_plan.hpp"
 #include "setup/dot_touches.hpp"
 #include "setup/empty_screen.hpp"
 #include "setup/setup_result.hpp"
+#include "setup/solve_setup.hpp"
 
 namespace telehug {
 namespace {
 
 constexpr Duration silent_after = 1s;
 constexpr Duration longest_idle = 5min;
-
-SetupPage page_of(SetupStep step) {
-  switch (step) {
-    case SetupStep::bright:
-    case SetupStep::confirm_border:
-      return SetupPage::triangle;
-    case SetupStep::background:
-      return SetupPage::black;
-    case SetupStep::marks:
-      return SetupPage::marks;
-    case SetupStep::dots:
-      return SetupPage::dot;
-    case SetupStep::solving:
-    case SetupStep::solved:
-    case SetupStep::saved:
-    case SetupStep::cancelled:
-      break;
-  }
-  return SetupPage::none;
-}
 
 bool takes_pictures(SetupStep step) {
   return page_of(step) != SetupPage::none;
@@ -70,10 +50,11 @@ class CalibrationSession::Conversation {
     picture_at_ = now;
     state_.image = {bgr.cols, bgr.rows};
     const std::size_t taken = state_.taken;
-    const SetupStep step = state_.step;
     look_at(bgr, now);
     tell();
-    if (!active_at_ || state_.taken != taken || state_.step != step) active_at_ = now;
+    // A step that is taken again and again, as going on does not help, is no progress.
+    if (!active_at_ || state_.taken != taken || state_.step > furthest_) active_at_ = now;
+    furthest_ = std::max(furthest_, state_.step);
     end_if_idle(now);
   }
 
@@ -91,13 +72,13 @@ class CalibrationSession::Conversation {
   bool confirm_border() {
     if (!state_.can_confirm) return false;
     enter(SetupStep::background);
-    return true;
+    return acted();
   }
 
   bool look_again() {
     if (state_.step != SetupStep::confirm_border) return false;
     enter(SetupStep::bright);
-    return true;
+    return acted();
   }
 
   bool back() {
@@ -109,20 +90,20 @@ class CalibrationSession::Conversation {
       enter(state_.step == SetupStep::confirm_border || state_.step == SetupStep::background ? SetupStep::bright
                                                                                              : SetupStep::background);
     }
-    return true;
+    return acted();
   }
 
   bool skip_dot() {
     if (state_.step != SetupStep::dots || !dots_->skip()) return false;
     if (dots_->all_taken()) enter(SetupStep::solving);
     tell();
-    return true;
+    return acted();
   }
 
   bool repeat(std::size_t dot) {
     if ((state_.step != SetupStep::solved && state_.step != SetupStep::dots) || !dots_->repeat(dot)) return false;
     enter(SetupStep::dots);
-    return true;
+    return acted();
   }
 
   void cancel() {
@@ -160,8 +141,11 @@ class CalibrationSession::Conversation {
         if (empty_screen_.look_confirm(bgr, state_) == LookOutcome::back) enter(SetupStep::bright);
         break;
       case SetupStep::background:
-        if (empty_screen_.look_background(bgr, now, state_) == LookOutcome::done)
+        if (const LookOutcome outcome = empty_screen_.look_background(bgr, now, state_); outcome == LookOutcome::back) {
+          enter(SetupStep::bright);
+        } else if (outcome == LookOutcome::done) {
           begin_marks_or_dots(settings_.thesis ? SetupStep::dots : SetupStep::marks);
+        }
         break;
       case SetupStep::marks:
         if (const LookOutcome outcome = empty_screen_.look_marks(bgr, now, state_); outcome == LookOutcome::back) {
@@ -224,7 +208,7 @@ class CalibrationSession::Conversation {
   }
 
   void solve() {
-    const auto solved = settings_.thesis ? solve_thesis() : solve_rig();
+    const auto solved = solve_setup(empty_screen_.seen(), *dots_, settings_.thesis, settings_.camera, settings_.date);
     const std::vector<bool> taken = dots_->taken();
     auto result = solved ? judge_setup(*solved, dots_->dots(), taken)
                          : failed_setup(solved.error().message, dots_->dots(), taken);
@@ -236,30 +220,11 @@ class CalibrationSession::Conversation {
     state_.result = std::move(result);
   }
 
-  [[nodiscard]] Calibration with(const BorderLine& border,
-                                 std::variant<ThesisCalibration, RigCalibration> solved) const {
-    return {settings_.camera, settings_.date, state_.image, settings_.screen, border, std::move(solved)};
-  }
-
-  [[nodiscard]] Result<Calibration> solve_thesis() const {
-    const std::array<MeasuredTouch, 2> touches{dots_->measured(0), dots_->measured(1)};
-    const auto model = ThesisTouchModel::solve(settings_.screen, touches[0], touches[1]);
-    if (!model) return model.error();
-    return with(empty_screen_.seen().border.line, ThesisCalibration{touches, *model});
-  }
-
-  [[nodiscard]] Result<Calibration> solve_rig() const {
-    const EmptyScreen& seen = empty_screen_.seen();
-    CalibrationPictures pictures{settings_.screen, seen.black, seen.triangle, std::nullopt, {}};
-    if (!seen.cameras.empty()) pictures.marks = seen.marks;
-    const std::vector<bool> taken = dots_->taken();
-    for (std::size_t i = 0; i < taken.size(); ++i) {
-      if (taken[i]) pictures.touches.push_back({dots_->picture(i), dots_->dots()[i]});
-    }
-    auto solved = calibrate_with_pictures(pictures);
-    if (!solved) return solved.error();
-    const BorderLine edge = border_line(solved->solution.model.camera, settings_.screen);
-    return with(edge, *std::move(solved));
+  // Somebody is there: the five minutes begin anew.
+  bool acted() {
+    active_at_.reset();
+    furthest_ = state_.step;
+    return true;
   }
 
   void end_if_idle(Timestamp now) {
@@ -275,6 +240,7 @@ class CalibrationSession::Conversation {
   SetupState state_;
   std::optional<Timestamp> picture_at_;
   std::optional<Timestamp> active_at_;  // when it went on last
+  SetupStep furthest_ = SetupStep::bright;
 };
 
 CalibrationSession::CalibrationSession(SessionSettings settings)

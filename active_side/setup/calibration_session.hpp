@@ -49,7 +49,8 @@ class CalibrationSession {
   CalibrationSession& operator=(const CalibrationSession&) = delete;
 
   // A whole picture (CV_8UC3) of the camera; `now` never decreases. Takes some milliseconds; up to a second when a page
-  // of marks is looked at, and one or two in the step `solving`. Pictures of another size count as none.
+  // of marks is looked at, and one or two in the step `solving`: who must not wait, calls it on a thread of its own.
+  // Pictures of another size count as none.
   void look(const cv::Mat& bgr, Timestamp now);
   // There was none: after a second the state says so. A session that has not gone on for five minutes ends.
   void no_picture(Timestamp now);

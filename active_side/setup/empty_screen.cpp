@@ -15,6 +15,7 @@ namespace {
 
 constexpr Duration bright_still = 600ms;
 constexpr Duration without_triangle = 4s;  // then another line will do, if the person agrees
+constexpr Duration without_black = 15s;    // long enough to show a page by hand
 constexpr Duration background_still = 1s;
 constexpr Duration marks_still = 500ms;
 constexpr int looks_per_search = 6;  // pictures, in which edges are searched for once
@@ -55,20 +56,6 @@ cv::Mat fields_of(const cv::Mat& bgr) {
   return grey;
 }
 
-SetupAdvice advice_of(CameraTurn turn) {
-  switch (turn) {
-    case CameraTurn::towards_screen:
-      return SetupAdvice::turn_towards_screen;
-    case CameraTurn::towards_user:
-      return SetupAdvice::turn_towards_user;
-    case CameraTurn::level:
-      return SetupAdvice::turn_level;
-    case CameraTurn::none:
-      break;
-  }
-  return SetupAdvice::none;
-}
-
 }  // namespace
 
 cv::Mat EmptyScreen::turned(const cv::Mat& bgr) const {
@@ -88,6 +75,7 @@ void EmptyScreenSteps::forget() {
   still_.forget();
   looks_ = 0;
   tries_ = 0;
+  asked_at_.reset();
 }
 
 // The triangle's line as the picture is, then upside down; the triangle without a line; else the longest line, or none.
@@ -149,7 +137,8 @@ LookOutcome EmptyScreenSteps::look_bright(const cv::Mat& bgr, Timestamp now, Set
     state.advice = advice_of(turn);
     if (turn == CameraTurn::none && still_.still_for() < bright_still) state.advice = SetupAdvice::hold_still;
   }
-  if (still_.still_for() < (at_the_triangle ? bright_still : without_triangle) || too_dark) return LookOutcome::wait;
+  if (still_.still_for() < (at_the_triangle ? bright_still : without_triangle) || too_dark || !border_found_)
+    return LookOutcome::wait;
   seen_.triangle = still_.picture();
   const EmptyScreen before = seen_;
   find_border(seen_.triangle, state);
@@ -164,9 +153,13 @@ LookOutcome EmptyScreenSteps::look_bright(const cv::Mat& bgr, Timestamp now, Set
 LookOutcome EmptyScreenSteps::look_confirm(const cv::Mat& bgr, SetupState& state) {
   state.progress = 1;
   if (looks_++ % looks_per_search != 0 || !seen_.border.vertex) return LookOutcome::wait;
-  const auto now = find_screen_border(seen_.turned(bgr), BorderChoice::triangle);
-  const bool moved =
-      now && std::abs(middle_row(now->line, bgr) - middle_row(seen_.border.line, bgr)) > moved_px * bgr.cols / 1280;
+  // As it was found: the line and the triangle alone see the vertex some pixels apart.
+  const bool alone = seen_.border.length_px == 0;
+  const auto now = find_screen_border(seen_.turned(bgr), alone ? BorderChoice::triangle_alone : BorderChoice::triangle);
+  const auto row = [&](const ScreenBorder& border) {
+    return alone ? border.vertex->v_px : middle_row(border.line, bgr);
+  };
+  const bool moved = now && std::abs(row(*now) - row(seen_.border)) > moved_px * bgr.cols / 1280;
   return moved ? LookOutcome::back : LookOutcome::wait;
 }
 
@@ -197,11 +190,13 @@ bool EmptyScreenSteps::sees_black(const cv::Mat& bgr) const {
 LookOutcome EmptyScreenSteps::look_background(const cv::Mat& bgr, Timestamp now, SetupState& state) {
   still_.look(bgr, now);
   state.progress = waited(still_.still_for(), background_still);
+  if (!asked_at_) asked_at_ = now;
   if (!sees_black(bgr)) {
     still_.forget();
     state.progress = 0;
     state.advice = SetupAdvice::page_not_seen;
-    return LookOutcome::wait;
+    // What was taken for the screen's edge is none, it seems.
+    return !seen_.border.vertex && now - *asked_at_ >= without_black ? LookOutcome::back : LookOutcome::wait;
   }
   if (percentile(bgr, 0.9) < dark_desk) {
     state.advice = SetupAdvice::too_dark;

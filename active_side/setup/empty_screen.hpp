@@ -4,6 +4,7 @@
 #pragma once
 
 #include <opencv2/core/mat.hpp>
+#include <optional>
 #include <vector>
 
 #include "calibration/screen_border.hpp"
@@ -39,6 +40,7 @@ class EmptyScreenSteps {
   // begun: forget().
   LookOutcome look_bright(const cv::Mat& bgr, Timestamp now, SetupState& state);
   LookOutcome look_confirm(const cv::Mat& bgr, SetupState& state);  // back: the camera has moved
+  // back: there is no triangle, and where the screen should be nothing became black
   LookOutcome look_background(const cv::Mat& bgr, Timestamp now, SetupState& state);
   LookOutcome look_marks(const cv::Mat& bgr, Timestamp now, SetupState& state);  // back: somebody was in the background
   void forget();
@@ -55,10 +57,11 @@ class EmptyScreenSteps {
   bool may_be_upside_down_;
   StillPicture still_;
   int looks_ = 0;
-  bool border_found_ = false;  // any line
-  cv::Mat white_fields_;       // turned: the picture with the white page in fields
-  int tries_ = 0;              // of finding marks
-  int backgrounds_ = 0;        // that were taken
+  bool border_found_ = false;          // any line
+  cv::Mat white_fields_;               // turned: the picture with the white page in fields
+  int tries_ = 0;                      // of finding marks
+  std::optional<Timestamp> asked_at_;  // for the black page
+  int backgrounds_ = 0;                // that were taken
 };
 
 }  // namespace telehug

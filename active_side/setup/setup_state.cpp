@@ -3,6 +3,26 @@
 
 namespace telehug {
 
+SetupPage page_of(SetupStep step) noexcept {
+  switch (step) {
+    case SetupStep::bright:
+    case SetupStep::confirm_border:
+      return SetupPage::triangle;
+    case SetupStep::background:
+      return SetupPage::black;
+    case SetupStep::marks:
+      return SetupPage::marks;
+    case SetupStep::dots:
+      return SetupPage::dot;
+    case SetupStep::solving:
+    case SetupStep::solved:
+    case SetupStep::saved:
+    case SetupStep::cancelled:
+      break;
+  }
+  return SetupPage::none;
+}
+
 const char* name_of(SetupStep step) noexcept {
   switch (step) {
     case SetupStep::bright:
@@ -110,6 +130,20 @@ const char* name_of(SetupAdvice advice) noexcept {
 
 const char* text_of(SetupAdvice advice) noexcept {
   return text(advice).text;
+}
+
+SetupAdvice advice_of(CameraTurn turn) noexcept {
+  switch (turn) {
+    case CameraTurn::towards_screen:
+      return SetupAdvice::turn_towards_screen;
+    case CameraTurn::towards_user:
+      return SetupAdvice::turn_towards_user;
+    case CameraTurn::level:
+      return SetupAdvice::turn_level;
+    case CameraTurn::none:
+      break;
+  }
+  return SetupAdvice::none;
 }
 
 }  // namespace telehug

@@ -109,9 +109,13 @@ struct SetupState {
   bool can_save = false;
 };
 
+// What is shown in that step.
+[[nodiscard]] SetupPage page_of(SetupStep step) noexcept;
+
 [[nodiscard]] const char* name_of(SetupStep step) noexcept;
 [[nodiscard]] const char* name_of(SetupPage page) noexcept;
 [[nodiscard]] const char* name_of(SetupAdvice advice) noexcept;
+[[nodiscard]] SetupAdvice advice_of(CameraTurn turn) noexcept;
 // A sentence in English for a terminal; pages have their own in their languages.
 [[nodiscard]] const char* text_of(SetupAdvice advice) noexcept;
 

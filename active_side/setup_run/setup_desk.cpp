@@ -49,9 +49,12 @@ Json choice_json(const SetupChoice& choice) {
 SetupDesk::SetupDesk(SetupDeskSettings settings, ControlServer& control)
     : settings_(std::move(settings)),
       clock_(settings_.tools.clock),
+      handover_(clock_),
       picture_(clock_),
+      monitors_(settings_.monitors),
       usual_(chosen_before(settings_)),
-      followed_(clock_.now()) {
+      followed_(clock_.now()),
+      went_on_(followed_) {
   control.on("setup", [this](const Json& request) { return obey(request); });
 }
 
@@ -65,8 +68,21 @@ SetupDesk::~SetupDesk() {
 
 std::optional<Json> SetupDesk::news() {
   const std::lock_guard lock(mutex_);
-  if (!std::exchange(changed_, false)) return std::nullopt;
-  return state_;
+  const bool hangs = silent();
+  if (!std::exchange(changed_, false) && hangs == told_hanging_) return std::nullopt;
+  told_hanging_ = hangs;
+  Json news = state_;
+  if (hangs) news["hangs"] = true;
+  return news;
+}
+
+bool SetupDesk::camera_hangs() const {
+  const std::lock_guard lock(mutex_);
+  return silent();
+}
+
+bool SetupDesk::silent() const {
+  return runs_ && clock_.now() - alive_ > longest_silence;
 }
 
 void SetupDesk::followed() {
@@ -105,7 +121,7 @@ Json SetupDesk::obey(const Json& request) {
 }
 
 Json SetupDesk::list() {
-  Json answer = offers_json(settings_.cameras(), settings_.monitors());
+  Json answer = offers_json(settings_.cameras(), monitors_.newest());
   const std::lock_guard lock(mutex_);
   answer["side"] = "active";
   answer["chosen"] = choice_json(usual_);
@@ -113,9 +129,11 @@ Json SetupDesk::list() {
 }
 
 Json SetupDesk::start(const Json& request) {
+  if (std::string stopped = settings_.why_stopped(); !stopped.empty()) return refused(std::move(stopped));
   SetupChoice choice;
   {
     const std::lock_guard lock(mutex_);
+    if (silent()) return refused("the camera hangs: unplug it, and plug it in again");
     if (runs_) return refused("a set-up runs already, perhaps on another page: end it there first");
     choice = usual_;
   }
@@ -131,7 +149,7 @@ Json SetupDesk::start(const Json& request) {
     runs_ = true;
     cancelled_ = false;
     orders_.clear();
-    followed_ = clock_.now();
+    followed_ = went_on_ = alive_ = clock_.now();
   }
   tell("waiting", Json::object());
   worker_ = std::thread([this, choice] { work(choice); });
@@ -160,6 +178,7 @@ Json SetupDesk::pass_on(const std::string& what, const Json& request) {
           "\"default\" and start anew");
   }
   orders_.push_back(std::move(order));
+  went_on_ = clock_.now();
   return {{"side", "active"}, {"setup", what}};
 }
 
@@ -174,14 +193,23 @@ void SetupDesk::work(const SetupChoice& choice) {
   }
   handover_.give_back();
   if (end["why"] == "failed") spdlog::warn("setting up: {}", end["problem"].get<std::string>());
-  tell("ended", std::move(end));
+  tell_end(std::move(end));
+}
+
+// Who is told of the end can begin anew.
+void SetupDesk::tell_end(Json end) {
+  end["stage"] = "ended";
   const std::lock_guard lock(mutex_);
+  state_ = std::move(end);
+  changed_ = true;
   runs_ = false;
 }
 
 Json SetupDesk::carry_out(const SetupChoice& choice) {
-  if (!handover_.take(longest_handover))
+  if (!handover_.take(longest_handover, [this] { return reason_to_end() == nullptr; })) {
+    if (const char* why = reason_to_end()) return {{"why", why}, {"problem", ""}};
     return {{"why", "failed"}, {"problem", "telehug still uses the camera: start telehug-active again"}};
+  }
   auto camera = settings_.tools.open(choice.camera, settings_.tools.capture);
   if (!camera) return {{"why", "failed"}, {"problem", camera.error().message}};
 
@@ -190,11 +218,18 @@ Json SetupDesk::carry_out(const SetupChoice& choice) {
                [this, &running] { return goes_on(running->state()); });
   running = &run;
   const char* why = nullptr;
+  Json place;  // in the set-up
   while (why == nullptr) {
     for (const SetupOrder& order : take_orders())
       run.obey(order);
     if (!run.over()) run.turn();
-    tell("running", run.state());
+    Json state = run.state();
+    if (Json now = {state["step"], state["dot"]}; now != place) {
+      place = std::move(now);
+      const std::lock_guard lock(mutex_);
+      went_on_ = clock_.now();
+    }
+    tell("running", std::move(state));
     why = run.saved() ? "saved" : run.over() ? "idle" : reason_to_end();
   }
   Json end = run.state();
@@ -206,9 +241,11 @@ Json SetupDesk::carry_out(const SetupChoice& choice) {
 }
 
 const char* SetupDesk::reason_to_end() {
+  if (!settings_.why_stopped().empty()) return "stopped";
   const std::lock_guard lock(mutex_);
   if (cancelled_) return "cancelled";
-  return clock_.now() - followed_ > longest_unfollowed ? "unfollowed" : nullptr;
+  if (clock_.now() - followed_ > longest_unfollowed) return "unfollowed";
+  return clock_.now() - went_on_ > longest_idle ? "idle" : nullptr;
 }
 
 bool SetupDesk::goes_on(const Json& state) {
@@ -226,6 +263,7 @@ std::vector<SetupOrder> SetupDesk::take_orders() {
 void SetupDesk::tell(const char* stage, Json state) {
   state["stage"] = stage;
   const std::lock_guard lock(mutex_);
+  alive_ = clock_.now();
   if (state == state_) return;
   state_ = std::move(state);
   changed_ = true;

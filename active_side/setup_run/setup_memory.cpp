@@ -55,6 +55,20 @@ Status write_whole(const fs::path& path, const std::string& text) {
   return Error{fmt::format("{} can't be written; is the folder writable and the disk not full?", path.string())};
 }
 
+// What has the last word on a key ("[section] name"): the flags, or the last file after `path` that sets it.
+std::string later_layer(std::string_view key, const ConfigSources& sources, const fs::path& path) {
+  const std::string section(key.substr(1, key.find(']') - 1));
+  const std::string name(key.substr(key.find(' ') + 1));
+  for (const std::string& flag : sources.overrides)
+    if (flag.starts_with(section + "." + name + "=")) return "--set " + flag;
+  auto files = config_files(sources, Side::active);
+  for (auto file = files.rbegin(); file != files.rend() && *file != path; ++file) {
+    const auto read = toml::parse_file(file->string());
+    if (read.at_path(section + "." + name)) return file->string();
+  }
+  return "another file";
+}
+
 // Whether a later start will do what was chosen.
 Status check_that_it_counts(const SetupChoice& choice, const ConfigSources& sources, const fs::path& path) {
   const auto config = load_active_config(sources);
@@ -70,8 +84,8 @@ Status check_that_it_counts(const SetupChoice& choice, const ConfigSources& sour
       : !choice.monitor.empty() && config->body_map.monitor != choice.monitor          ? "[body_map] monitor"
                                                                                        : "";
   if (other.empty()) return Done{};
-  return Error{fmt::format("{} was written, but {} is set elsewhere, too, and that counts for more: take it out there",
-                           path.string(), other)};
+  return Error{fmt::format("{} was written, but {} is set in {}, too, and that counts for more: take it out there",
+                           path.string(), other, later_layer(other, sources, path))};
 }
 
 }  // namespace

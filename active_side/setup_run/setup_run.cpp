@@ -47,17 +47,8 @@ SetupAdvice advice_of(const SetupState& seen, const ScreenSize& screen) {
   const double slope = (last.v_px - first.v_px) / (last.u_px - first.u_px);
   const BorderLine line{first.v_px - slope * first.u_px, slope};
   const bool upside_down = seen.green_band->top_px == green_band(screen, seen.image, true).top_px;
-  switch (turn_wanted(line, *seen.green_band, seen.image, upside_down)) {
-    case CameraTurn::towards_screen:
-      return SetupAdvice::turn_towards_screen;
-    case CameraTurn::towards_user:
-      return SetupAdvice::turn_towards_user;
-    case CameraTurn::level:
-      return SetupAdvice::turn_level;
-    case CameraTurn::none:
-      break;
-  }
-  return SetupAdvice::good;
+  const SetupAdvice advice = advice_of(turn_wanted(line, *seen.green_band, seen.image, upside_down));
+  return advice == SetupAdvice::none ? SetupAdvice::good : advice;
 }
 
 }  // namespace
@@ -243,7 +234,7 @@ void SetupRun::go_on_tuning() {
     tune_->phase = TuneState::Phase::search;  // turn() searches
     return;
   }
-  auto picture = fresh_picture(*camera_, seen);
+  auto picture = fresh_picture(*camera_, seen, tell_);
   if (picture) {
     tune_->without = picture->clone();
     tune_->phase = TuneState::Phase::finger;
@@ -262,7 +253,7 @@ void SetupRun::search_settings() {
     return !tune_->ended;
   };
   Result<Tuning> found = Error{};
-  if (auto with = fresh_picture(*camera_, seen)) {
+  if (auto with = fresh_picture(*camera_, seen, tell_)) {
     found = tune_with_finger(*camera_, tune_->without, *with,
                              {choice_.camera.substr(webcam_prefix.size()), tools_.capture.webcam_fps,
                               tools_.calibration_file, tools_.capture.webcam_setup.tuned_file},

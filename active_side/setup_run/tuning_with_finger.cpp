@@ -25,10 +25,12 @@ Result<BorderPlace> border_in(const cv::Mat& picture, const std::filesystem::pat
 
 }  // namespace
 
-Result<cv::Mat> fresh_picture(FrameSource& camera, const std::function<void(const cv::Mat&)>& seen) {
+Result<cv::Mat> fresh_picture(FrameSource& camera, const std::function<void(const cv::Mat&)>& seen,
+                              const std::function<bool()>& goes_on) {
   Frame frame;
   int fresh = 0;
   for (int tries = 0; tries < most_tries; ++tries) {
+    if (goes_on && !goes_on()) return Error{"it was broken off"};
     if (camera.read(frame, longest_wait) != ReadOutcome::frame) continue;
     if (seen) seen(frame.bgr);
     if (++fresh > settle_frames) return frame.bgr;

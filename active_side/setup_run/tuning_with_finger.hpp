@@ -23,9 +23,11 @@ struct TunedWebcam {
   std::filesystem::path tuned_file;        // where the settings are kept
 };
 
-// A picture that was taken after this call began; `seen` is shown each that comes.
+// A picture that was taken after this call began; `seen` is shown each that comes. `goes_on` is asked every half second
+// at least; false: an error comes back at once.
 [[nodiscard]] Result<cv::Mat> fresh_picture(FrameSource& camera,
-                                            const std::function<void(const cv::Mat&)>& seen = nullptr);
+                                            const std::function<void(const cv::Mat&)>& seen = nullptr,
+                                            const std::function<bool()>& goes_on = nullptr);
 
 // `empty` and `with`: pictures without and with the finger, which stays where it is. The camera is open, with its
 // automatics off. What was found is kept in the file, unless it was ended.

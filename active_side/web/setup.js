@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Camera and screen are set up: from nothing to a saved calibration.
-import {beginPage, command, follow, make, onPress, text, write} from "/shared/page.js";
+import {beginPage, command, follow, make, onPress, text, write, writeProblem, writeWithSaid} from "/shared/page.js";
 import {drawOverlay, placePreview} from "/setup/preview.js";
 import {showResult} from "/setup/result.js";
-import {chosenMonitor, chosenSize, offerMonitors, writeMonitors} from "/setup/screen.js";
+import {chosenMonitor, chosenSize, offerMonitors, restoreScreen, writeMonitors} from "/setup/screen.js";
 import {play, wakeSounds} from "/setup/sound.js";
 import {enterWhole, isWhole, leaveWhole, showWhole} from "/setup/whole.js";
 
@@ -14,7 +14,6 @@ const part = (id) => document.getElementById(id);
 let news = {stage: "idle"};
 let offers = {cameras: []};
 let chooses = "camera";  // or "screen", while the daemon only looks at the camera
-let begun = null;        // the pixels with which the pages were begun
 let shownPart = "";
 let shownResult = "";
 
@@ -33,6 +32,7 @@ function offset([x, y]) {
 }
 
 function advice() {
+  if (news.hangs) return text("setup.camera_hangs");
   if (news.advice === "none") return "";
   if (news.advice === "finger_beside_dot" && news.off_mm) return `${text("advice.finger_beside_dot")} ${offset(news.off_mm)}`;
   return text(`advice.${news.advice}`);
@@ -66,20 +66,20 @@ function showPart() {
 function showBegin() {
   const why = news.stage === "ended" ? news.why : "";
   part("ended").hidden = why === "";
-  write(part("ended"), why === "" ? "" : `${text(`setup.ended_${why}`)} ${news.problem ?? ""}`.trim());
+  writeWithSaid(part("ended"), why === "" ? "" : text(`setup.ended_${why}`), news.problem ?? "");
 }
 
 function showCamera() {
   if (!runs()) {
-    write(part("camera-advice"), text("setup.waiting"));
+    write(part("camera-advice"), text(news.hangs ? "setup.camera_hangs" : "setup.waiting"));
     return;
   }
   const {camera} = news.run;
-  const good = news.advice === "good" && camera.problem === "";
+  const good = news.advice === "good" && camera.problem === "" && !news.hangs;
   part("camera-advice").classList.toggle("good", good);
   write(part("camera-advice"), good ? text("setup.camera_good") : advice());
-  write(part("camera-facts"), camera.problem ? `${text("setup.camera_says")} ${camera.problem}`
-                                             : text("setup.camera_facts", {name: camera.name, fps: camera.fps}));
+  const facts = camera.problem ? text("setup.camera_says") : text("setup.camera_facts", {name: camera.name, fps: camera.fps});
+  writeWithSaid(part("camera-facts"), facts, camera.problem);
   showTuning(news.run.tune);
 }
 
@@ -88,7 +88,8 @@ function showTuning(tune) {
   part("tune").disabled = tune !== null;
   if (tune === null) return;
   const asks = tune.phase === "empty" || tune.phase === "finger";
-  write(part("tune-text"), text(`setup.tune_${tune.phase}`, {before: tune.before.toFixed(1), after: tune.after.toFixed(1), why: tune.problem}));
+  const found = {before: tune.before.toFixed(1), after: tune.after.toFixed(1)};
+  writeWithSaid(part("tune-text"), text(`setup.tune_${tune.phase}`, found), tune.problem);
   part("tune-next").hidden = !asks;
   part("tune-progress").hidden = tune.phase !== "search";
   part("tune-progress").value = tune.progress;
@@ -107,7 +108,7 @@ function showSolved() {
   const newest = JSON.stringify([document.documentElement.lang, result]);
   if (newest === shownResult) return;
   shownResult = newest;
-  showResult(news, (dots) => repeatDots(dots).catch((problem) => write(part("refusal"), problem.message)));
+  showResult(news, (dots) => repeatDots(dots).catch((problem) => writeProblem(part("refusal"), problem)));
 }
 
 function showSaved() {
@@ -115,7 +116,7 @@ function showSaved() {
   write(part("saved-calibration"), text("setup.saved_calibration", {file: saved.calibration}));
   write(part("saved-settings"), saved.settings ? text("setup.saved_settings", {file: saved.settings}) : "");
   part("saved-problem").hidden = saved.problem === "";
-  write(part("saved-problem"), saved.problem ? `${text("setup.saved_problem")} ${saved.problem}` : "");
+  writeWithSaid(part("saved-problem"), saved.problem ? text("setup.saved_problem") : "", saved.problem);
 }
 
 function wholeTitle() {
@@ -132,10 +133,9 @@ function show() {
   if (now === "saved") showSaved();
   if (runs()) drawOverlay(news);
   if (isWhole()) {
-    const refusal = runs() && news.run.refusal ? `${news.run.refusal} ` : "";
+    const refusal = runs() ? news.run.refusal : "";
     const pages = runs() ? news : {show: {page: "none", dots: [], width_mm: 1, height_mm: 1, dot_mm: 1}, can: {}, progress: 0};
-    showWhole(pages, {title: showsPages() ? wholeTitle() : "",
-                      advice: showsPages() ? refusal + advice() : refusal});
+    showWhole(pages, {title: showsPages() ? wholeTitle() : "", advice: showsPages() ? advice() : "", refusal});
   } else {
     placePreview(now === "camera" && runs() ? part("camera-picture") : null);
   }
@@ -148,15 +148,29 @@ function sound(before) {
   else if (news.step === "solved" && before.step !== "solved") play(660, 880, 1320);
 }
 
+// This page was loaded while the pages are shown.
+function takeUp() {
+  const {chosen} = news.run;
+  restoreScreen(chosen);
+  document.querySelector(`input[name=mode][value=${chosen.mode}]`).checked = true;
+}
+
 function hear(newest) {
   const before = news;
   news = newest;
+  if (showsPages() && before.stage === "idle") takeUp();
   sound(before);
   if (runs() && news.step === "camera" && before.step !== "camera") chooses = "camera";
   if (isWhole() && ((pagesIn(before) && !showsPages()) || !runs())) leaveWhole();
   const refusal = runs() ? news.run.refusal : "";
-  if (refusal !== "" && refusal !== before.run?.refusal) write(part("refusal"), refusal);
+  if (refusal !== "" && refusal !== before.run?.refusal) writeProblem(part("refusal"), {message: refusal, fromDaemon: true});
   show();
+}
+
+// Whether they are the pages of a screen with so many pixels.
+function areOf(px) {
+  const {width_px, height_px} = news.run.chosen;
+  return step() !== "camera" && width_px === px.width_px && height_px === px.height_px;
 }
 
 // The pages, on the whole screen; begun anew if they are to be others than before.
@@ -164,10 +178,8 @@ async function goWhole(anew) {
   wakeSounds();
   const px = await enterWhole(show);
   if (px === undefined) return;
-  const same = begun !== null && begun.width_px === px.width_px && begun.height_px === px.height_px;
-  begun = px;
   const mode = document.querySelector("input[name=mode]:checked").value;
-  if (anew || !same)
+  if (anew || !areOf(px))
     await order("begin", {...chosenSize(), ...px, monitor: chosenMonitor()?.name ?? "", mode});
   show();
 }
@@ -272,5 +284,5 @@ await refreshOffers();
 offerMonitors(offers);
 document.querySelector(`input[name=mode][value=${offers.chosen.mode}]`).checked = true;
 writeAll();
-follow({setup: hear});
+follow({setup: hear}, {inBackground: true});  // or it would end when somebody looks something up
 await linkFurther();

@@ -13,6 +13,9 @@ std::string written(const std::vector<Key>& keys, std::string_view side) {
       "# Read in this order, later ones win: /etc/telehug/{}.toml, /etc/telehug/{}.d/*.toml, the same in\n"
       "# ~/.config/telehug/, --config FILE (in place of those before), --set SECTION.KEY=VALUE.\n",
       side, side, side);
+  if (side == "active")
+    text +=
+        "# The set-up page writes camera, screen and monitor into active.d/50-setup.toml, which wins over this file.\n";
   std::string_view section;
   for (const Key& key : keys) {
     if (key.section != section) text += fmt::format("\n[{}]\n", key.section);

@@ -28,11 +28,16 @@ bool flag_at(const Json& json, const std::string& name) {
   return value != nullptr && value->is_boolean() && value->get<bool>();
 }
 
+bool says_something(const Json& value) {
+  return !value.is_null() && !(value.is_string() && value.get_ref<const std::string&>().empty()) &&
+         !(value.is_structured() && value.empty());
+}
+
 // "name value, name value" of what is left of a part.
 std::string rest_of(const Json& json, std::initializer_list<std::string_view> shown) {
   std::string text;
   for (const auto& [name, value] : json.items()) {
-    if (std::find(shown.begin(), shown.end(), name) != shown.end()) continue;
+    if (!says_something(value) || std::find(shown.begin(), shown.end(), name) != shown.end()) continue;
     text += fmt::format("{}{} {}", text.empty() ? "" : ", ", plain_text(name), text_of(value));
   }
   return text;

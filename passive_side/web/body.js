@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The wearer's page: what is felt, what they want, who may touch, how the jacket is.
-import {beginPage, command, follow, make, onPress, showProblems, text, write} from "/shared/page.js";
+import {beginPage, command, follow, make, onPress, showProblems, text, write, writeProblem} from "/shared/page.js";
 import {drawPicture, showMuted, showRunning, writePicture} from "/body_picture.js";
 import {beginQuietHours, showQuietHours} from "/quiet_hours.js";
 import {beginTrials, offerTrials, writeTrial} from "/trial.js";
@@ -112,7 +112,7 @@ function beginOrders() {
       await refresh();
     } catch (problem) {
       sliding = false;
-      write(part("refusal"), problem.message);
+      writeProblem(part("refusal"), problem);
     }
   });
 }

@@ -1,35 +1,38 @@
 // SPDX-License-Identifier: Apache-2.0
 // The wearer's own quiet hours: a row of two times of day each.
-import {command, make, onPress, text, write} from "/shared/page.js";
+import {command, make, onPress, text, write, writeProblem} from "/shared/page.js";
 
 const list = document.getElementById("quiet-rows");
 const add = document.getElementById("quiet-add");
 const MOST = 8;  // as the daemon takes
 
-// "20:30-07:00,13:00-14:00" as [["20:30", "07:00"], ...], and back. Times that end at midnight end at 00:00 here.
-export const spansOf = (hours) => (hours ? hours.split(",").map((span) => span.split("-")) : []);
-export const hoursOf = (spans) => spans.map(([begin, end]) => `${begin}-${end}`).join(",");
+// "20:30-07:00,13:00-14:00" as [["20:30", "07:00"], ...]. Times that end at midnight end at 00:00 here.
+const spansOf = (hours) => (hours ? hours.split(",").map((span) => span.split("-")) : []);
 
 const rows = () => [...list.querySelectorAll("li")];
-const spanOf = (row) => [...row.querySelectorAll("input")].map((input) => input.value);
-// What is being typed is no span yet.
-const isWhole = ([begin, end]) => begin !== "" && end !== "" && begin !== end;
+const versionOf = (hours) => JSON.stringify([document.documentElement.lang, hours]);
 
 let told = () => {};
 
+// "20:30-07:00". While a row is half typed it is what it was before: "" if it is a new one.
+function spanOf(row) {
+  const times = [...row.querySelectorAll("input")].map((input) => input.value);
+  if (!times.includes("")) row.dataset.span = times.join("-");
+  return row.dataset.span ?? "";
+}
+
 async function tell() {
-  const spans = rows().map(spanOf);
-  add.disabled = spans.length >= MOST;
-  if (!spans.every(isWhole)) return;
-  const hours = hoursOf(spans);
+  add.disabled = rows().length >= MOST;
+  const hours = rows().map(spanOf).filter(Boolean).join(",");
   if (hours === list.dataset.kept) return;
   try {
     await command({command: "quiet", hours});
     list.dataset.kept = hours;
+    list.dataset.shown = versionOf(hours);
     write(document.getElementById("refusal"), "");
     await told();
   } catch (problem) {
-    write(document.getElementById("refusal"), problem.message);
+    writeProblem(document.getElementById("refusal"), problem);
   }
 }
 
@@ -42,6 +45,7 @@ function timeInput(label, value) {
 function row([begin, end]) {
   const remove = make("button", {textContent: text("quiet.remove")});
   const item = make("li", {className: "span"}, timeInput("quiet.from", begin), "–", timeInput("quiet.to", end), remove);
+  spanOf(item);
   onPress(remove, async () => {
     item.remove();
     add.focus();
@@ -55,7 +59,7 @@ export function showQuietHours(consent) {
   const fixed = consent.quiet_hours;
   write(document.getElementById("quiet-fixed"), fixed ? text("quiet.fixed", {hours: fixed}) : "");
   const hours = consent.own_quiet_hours ?? "";
-  const shown = JSON.stringify([document.documentElement.lang, hours]);
+  const shown = versionOf(hours);
   if (list.dataset.shown === shown || list.contains(document.activeElement)) return;
   list.dataset.shown = shown;
   list.dataset.kept = hours;

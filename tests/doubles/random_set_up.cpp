@@ -85,7 +85,7 @@ class Trial {
   Trial(std::uint64_t seed, const SetUpTrial& wanted)
       : wanted_(wanted),
         seed_(seed),
-        drawn_(still(random_rig(seed))),
+        drawn_(still(random_rig(seed), wanted.turned_deg)),
         rig_(drawn_.settings),
         session_(settings()),
         set_up_(rig_, session_),
@@ -110,7 +110,8 @@ class Trial {
   }
 
  private:
-  static RandomRig still(RandomRig rig) {
+  static RandomRig still(RandomRig rig, double turned_deg) {
+    rig.settings.camera.pitch_deg += turned_deg;
     rig.settings.motion = ScreenMotion::still;
     return rig;
   }

@@ -11,9 +11,10 @@
 namespace telehug {
 
 struct SetUpTrial {
-  bool quick = false;    // two dots
-  bool trace = false;    // print what the session says, as it says it
-  std::string pictures;  // folder for the last picture if it is not good; empty: none
+  bool quick = false;     // two dots
+  double turned_deg = 0;  // the camera, from where it should look: > 0 towards the user
+  bool trace = false;     // print what the session says, as it says it
+  std::string pictures;   // folder for the last picture if it is not good; empty: none
 };
 
 enum class SetUpEnd {

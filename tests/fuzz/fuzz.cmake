@@ -41,6 +41,7 @@ telehug_fuzzer(pair_files SUBJECT link DEPS telehug_daemon OpenSSL::Crypto)
 telehug_fuzzer(control SUBJECT ops DEPS telehug_ctl telehug_daemon)
 telehug_fuzzer(web SUBJECT web DEPS telehug_web fmt::fmt)
 telehug_fuzzer(picture SUBJECT touch DEPS telehug_pictures)
+telehug_fuzzer(edid SUBJECT touch DEPS active_screen_x11)
 telehug_fuzzer(calibration SUBJECT touch DEPS active_calibration)
 telehug_fuzzer(rig_files SUBJECT touch DEPS active_capture active_finger)
 

@@ -11,10 +11,12 @@ if(NOT TELEHUG_SANITIZER)
       live
       pairing
       setup
+      setup_camera
       touch)
     add_test(NAME test_${page}_page COMMAND node --test ${CMAKE_CURRENT_SOURCE_DIR}/ui/pages/${page}_test.js)
     set_tests_properties(test_${page}_page PROPERTIES
       LABELS "ui;web" TIMEOUT 120 FIXTURES_REQUIRED ui_packages PROCESSORS 2
       ENVIRONMENT "TELEHUG_BIN=${CMAKE_RUNTIME_OUTPUT_DIRECTORY};TELEHUG_SOURCE=${PROJECT_SOURCE_DIR};TELEHUG_UI_PACKAGES=${CMAKE_BINARY_DIR}/ui/packages;TELEHUG_UI_PICTURES=${CMAKE_BINARY_DIR}/ui/pictures")
   endforeach()
+  set_tests_properties(test_setup_page PROPERTIES TIMEOUT 240)  # a person's whole set-up, in real time
 endif()

@@ -31,7 +31,7 @@ function shapesOf({dot, outcome, place}) {
 export function drawDots({width_mm, height_mm}, unseen, check, isTouched) {
   const svg = part("dots");
   svg.setAttribute("viewBox", `0 0 ${width_mm} ${height_mm}`);
-  svg.replaceChildren(...unseen.map((dot) => circle("unseen", dot, UNSEEN_MM)), 
+  svg.replaceChildren(...unseen.map((dot) => circle("unseen", dot, UNSEEN_MM)),
                       ...check.results.flatMap((result) => isTouched && result.dot === check.dot ? [] : shapesOf(result)));
   if (check.dot === null) return;
   if (!isTouched) svg.append(circle("ring-back", check.dot, RING_MM), circle("ring", check.dot, RING_MM));

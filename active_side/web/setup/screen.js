@@ -78,13 +78,20 @@ export function offerMonitors(offers) {
   sayWhence();
 }
 
+// As a set-up that runs was begun with.
+export function restoreScreen({monitor, width_mm, height_mm}) {
+  if (monitors.some((one) => one.name === monitor)) part("monitors").value = monitor;
+  setSize(width_mm, height_mm);
+  sayWhence();
+}
+
 // Of the visible screen; NaN where nothing sensible is written.
 export const chosenSize = () => ({width_mm: fields.width.valueAsNumber, height_mm: fields.height.valueAsNumber});
 
 // Why this window does not cover the monitor, as far as the browser tells; "" if it seems to. `canvas` has device pixels.
-export function whyNotCovered(canvas) {
+export function whyNotCovered(canvas, isWhole) {
   const monitor = chosenMonitor();
-  if (!document.fullscreenElement) return text("setup.not_whole");
+  if (!isWhole) return text("setup.not_whole");
   const wanted = monitor ? monitorPx() : screenPx();
   if (Math.abs(canvas.width - wanted.width) > 1 || Math.abs(canvas.height - wanted.height) > 1)
     return text("setup.other_pixels", {has: `${canvas.width} × ${canvas.height}`, wants: `${wanted.width} × ${wanted.height}`,

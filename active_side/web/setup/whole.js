@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The set-up on the whole screen: what the camera is to see, and on the upper third what the person is to do.
-import {text, write} from "/shared/page.js";
+import {text, write, writeWithSaid} from "/shared/page.js";
 import {drawShown} from "/setup/pages.js";
 import {placePreview} from "/setup/preview.js";
 import {whyNotCovered} from "/setup/screen.js";
@@ -30,13 +30,23 @@ new ResizeObserver(([entry]) => {
   whole.dispatchEvent(new Event("resized"));
 }).observe(canvas);
 
-export const isWhole = () => document.fullscreenElement === whole;
+// Also a window that somebody has made as large as the screen (F11), where the browser lets no page do so.
+const coversScreen = () => innerWidth >= screen.width && innerHeight >= screen.height;
+let inWindow = false;
+
+export const isWhole = () => document.fullscreenElement === whole || (inWindow && coversScreen());
+
+// Frames are drawn, or, where they come slowly or the window can't be seen, some time has passed.
+const nextFrame = () => new Promise((done) => {
+  requestAnimationFrame(done);
+  setTimeout(done, 100);
+});
 
 // Until the window is drawn, and has been as large as it is for a while.
 async function settled() {
   const end = performance.now() + LONGEST_MS;
   for (let before = "", since = performance.now(); performance.now() < end;) {
-    await new Promise(requestAnimationFrame);
+    await nextFrame();
     const now = canvas.width > 0 ? JSON.stringify(pixels()) : "";
     if (now !== before || now === "") since = performance.now();
     before = now;
@@ -46,7 +56,7 @@ async function settled() {
 
 // A window that was moved, or has grown only now, needs no answer any more.
 function askAgain(ask) {
-  uncovered = whyNotCovered(canvas);
+  uncovered = whyNotCovered(canvas, isWhole());
   if (uncovered === "") answer(true);
   else ask();
 }
@@ -58,12 +68,14 @@ export async function enterWhole(ask) {
   try {
     await whole.requestFullscreen({navigationUI: "hide"});
   } catch {
-    whole.hidden = true;
-    throw new Error(text("setup.no_whole"));
+    inWindow = coversScreen();
+    whole.hidden = !inWindow;
+    if (!inWindow) throw new Error(text("setup.no_whole"));
+    ask();
   }
   part("panel").focus();
   await settled();
-  uncovered = whyNotCovered(canvas);
+  uncovered = whyNotCovered(canvas, isWhole());
   if (uncovered !== "") {
     ask();
     const anyway = await new Promise((done) => {
@@ -78,7 +90,20 @@ export async function enterWhole(ask) {
 }
 
 export async function leaveWhole() {
-  if (isWhole()) await document.exitFullscreen();
+  if (document.fullscreenElement === whole) await document.exitFullscreen();
+  else if (inWindow) leftWindow();
+}
+
+function leftWindow() {
+  inWindow = false;
+  left();
+  whole.dispatchEvent(new Event("resized"));
+}
+
+function left() {
+  if (isWhole()) return;
+  whole.hidden = true;
+  answer(false);
 }
 
 function showProgress(part) {
@@ -86,7 +111,7 @@ function showProgress(part) {
   ring.setAttribute("stroke-dasharray", `${100 * step} 100`);
 }
 
-// `words`: title and advice. `shows`: of the topic "setup"; `can`: what can be done.
+// `words`: title, advice, and the daemon's refusal of the last order. `shows`: of the topic "setup"; `can`: what can be done.
 export function showWhole(state, words) {
   whole.hidden = !isWhole();
   if (whole.hidden) return;
@@ -103,7 +128,7 @@ export function showWhole(state, words) {
   part("whole-picture").hidden = !bright;
   placePreview(bright ? part("whole-picture") : null);
   write(part("whole-title"), asks ? text("setup.not_covered") : words.title);
-  write(part("whole-advice"), asks ? uncovered : words.advice);
+  writeWithSaid(part("whole-advice"), asks ? uncovered : words.advice, asks ? "" : words.refusal);
   showProgress(asks ? 0 : state.progress);
   part("ring").toggleAttribute("hidden", asks);
   part("anyway").hidden = !asks;
@@ -115,8 +140,10 @@ export function showWhole(state, words) {
 
 part("anyway").addEventListener("click", () => answer(true));
 part("leave").addEventListener("click", leaveWhole);
-document.addEventListener("fullscreenchange", () => {
-  if (isWhole()) return;
-  whole.hidden = true;
-  answer(false);
+document.addEventListener("fullscreenchange", left);
+window.addEventListener("resize", () => {
+  if (inWindow && !coversScreen()) leftWindow();
+});
+document.addEventListener("keydown", (event) => {
+  if (inWindow && event.key === "Escape") leftWindow();
 });

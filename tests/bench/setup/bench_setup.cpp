@@ -2,7 +2,7 @@
 //
 // Whole set-ups of random rigs by a simulated person: do they end well, how long do they take, and how exact is what
 // they find?
-//   bench_setup [--from SEED] [--to SEED] [--two-dots] [--trace] [--pictures FOLDER] [--json FILE]
+//   bench_setup [--from SEED] [--to SEED] [--two-dots] [--turned-deg DEG] [--trace] [--pictures FOLDER] [--json FILE]
 // Ends with 1 if a calibration that is wrong would have been saved.
 #include <fmt/format.h>
 
@@ -89,6 +89,7 @@ int main(int argc, char** argv) {
   app.add_option("--from", wanted.from, "the first rig's seed")->capture_default_str();
   app.add_option("--to", wanted.to, "the last rig's seed")->capture_default_str();
   app.add_flag("--two-dots", wanted.trial.quick, "instead of nine");
+  app.add_option("--turned-deg", wanted.trial.turned_deg, "turn cameras towards the user (< 0: the screen) before");
   app.add_flag("--trace", wanted.trial.trace, "print what each session says, as it says it");
   app.add_option("--pictures", wanted.trial.pictures, "folder for the last picture of each rig that is not good");
   app.add_option("--json", wanted.json_file, "write the outcomes down, too");

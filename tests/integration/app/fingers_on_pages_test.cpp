@@ -96,6 +96,48 @@ TEST_F(APageUsedWithTheFingers, KeepsThemFromTheWearerUntilItIsLeftAndTheyAreLif
   EXPECT_TRUE(eventually([this] { return pair.felt(); })) << pair.logs();
 }
 
+TEST_F(APageUsedWithTheFingers, KeepsThemFromTheWearerWhileItSetsUpAndUntilTheyAreLifted) {
+  pair.start_jacket();
+  pair.start_passive();
+  start_active();
+  ASSERT_TRUE(eventually([this] { return pair.felt(); })) << pair.logs();
+  const EnteredPages pages(pair, Side::active);
+  RawBrowser page = pages.follow("setup");
+  ASSERT_EQ(pages.order({{"command", "setup"}, {"order", "start"}}).value("error", ""), "");
+  EXPECT_FALSE(page.read_until("\"stage\":\"running\"").empty());
+  ASSERT_TRUE(eventually([this] { return !pair.felt(); })) << "what touched is taken back";
+  EXPECT_EQ(sending(), nlohmann::json({{"name", "auto"}, {"on", false}, {"why", "a page uses the fingers"}}));
+  // It is broken off while the finger lies there.
+  const std::uint64_t before = pair.counter(Side::active, "touches_published");
+  ASSERT_EQ(pages.order({{"command", "setup"}, {"order", "cancel"}}).value("error", ""), "");
+  EXPECT_TRUE(eventually([this] {
+    return sending() == nlohmann::json({{"name", "auto"}, {"on", true}});
+  })) << pair.logs();
+  ASSERT_TRUE(frames_pass(60));
+  EXPECT_FALSE(pair.felt()) << "the finger was meant for the set-up";
+  EXPECT_EQ(pair.counter(Side::active, "touches_published"), before);
+  show(pair, "background.jpg");
+  ASSERT_TRUE(frames_pass(30));
+  show(pair, "sequence/012.jpg");
+  EXPECT_TRUE(eventually([this] { return pair.felt(); })) << pair.logs();
+}
+
+TEST_F(APageUsedWithTheFingers, SetsUpOnlyWhileNeitherSideHasStopped) {
+  pair.start_passive();
+  start_active();
+  const EnteredPages pages(pair, Side::active);
+  RawBrowser page = pages.follow("setup");
+  const auto started = [&] { return pages.order({{"command", "setup"}, {"order", "start"}}).value("error", ""); };
+  for (const Side side : {Side::active, Side::passive}) {
+    ASSERT_TRUE(eventually([&] { return started().empty(); })) << pair.logs();
+    EXPECT_FALSE(page.read_until("\"stage\":\"running\"").empty());
+    EXPECT_EQ(pair.telehug("stop", side).code, 0);
+    EXPECT_FALSE(page.read_until("\"why\":\"stopped\"").empty()) << pair.logs();
+    EXPECT_THAT(started(), testing::HasSubstr("resume first"));
+    EXPECT_EQ(pair.telehug("resume", side).code, 0);
+  }
+}
+
 TEST_F(APageUsedWithTheFingers, HasNoneWhileEverythingIsStopped) {
   start_active();
   const EnteredPages pages(pair, Side::active);

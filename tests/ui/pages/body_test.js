@@ -150,9 +150,48 @@ describe("The wearer's page", () => {
     await browser.photograph(page, "body-quiet");
     await page.reload();
     await eventually(async () => await page.getByLabel("Quiet from").inputValue() === begin, "they are kept");
+
+    // A row that is not filled in, or being changed, holds up no other.
+    const add = page.getByRole("button", {name: "Add quiet hours"});
+    await add.click();
+    await add.click();
+    await page.getByLabel("Quiet from").nth(2).fill("03:00");
+    await page.getByLabel("until", {exact: true}).nth(2).fill("03:01");
+    const kept = async (hours) => eventually(async () => (await status()).consent.own_quiet_hours === hours, `${hours} are kept`);
+    await kept(`${begin}-${end},03:00-03:01`);
+    await page.getByLabel("Quiet from").nth(0).fill("");
+    await page.getByLabel("until", {exact: true}).nth(2).fill("03:02");
+    await kept(`${begin}-${end},03:00-03:02`);
+    await page.getByRole("button", {name: "Remove"}).nth(2).click();
+    await kept(`${begin}-${end}`);
+    assert.equal(await page.getByLabel("Quiet from").count(), 2, "what is half typed stays");
+    await page.getByLabel("Quiet from").nth(1).fill("04:00");
+    await page.getByLabel("until", {exact: true}).nth(1).fill("04:00");
+    await page.getByText(/begins when it ends/).waitFor();
+    await kept(`${begin}-${end}`);
+    await page.getByRole("button", {name: "Remove"}).nth(1).click();
     await page.getByRole("button", {name: "Remove"}).click();
     await litNow("a motor lights up again");
     assert.equal((await status()).consent.own_quiet_hours, undefined);
+  });
+
+  test("leaves others the browser's few connections while nobody sees it", async () => {
+    const hide = (tab, hidden) => tab.evaluate((value) => {
+      Object.defineProperty(document, "hidden", {value, configurable: true});
+      document.dispatchEvent(new Event("visibilitychange"));
+    }, hidden);
+    const tabs = [];
+    for (let i = 0; i < 8; ++i) {
+      const tab = await page.context().newPage();
+      tabs.push(tab);
+      await tab.goto(page.url(), {timeout: 10_000});
+      await tab.getByText("Ready: you can be touched").waitFor({timeout: 10_000});
+      await hide(tab, true);
+    }
+    const follows = tabs[0].waitForRequest(/\/live/, {timeout: 10_000});
+    await hide(tabs[0], false);
+    await follows;
+    for (const tab of tabs) await tab.close();
   });
 
   test("stops everything until it carries on", async () => {
@@ -206,9 +245,9 @@ describe("The wearer's page", () => {
     await page.setViewportSize({width: 1280, height: 800});
   });
 
-  test("asks nobody else for anything, complains of nothing and is light", () => {
+  test("asks nobody else for anything, complains of nothing and is light", async () => {
     assert.deepEqual(page.wrong, []);
-    browser.assertLight(page);
+    await browser.assertLight(page);
   });
 
   test("says that telehug does not answer when it has ended", async () => {

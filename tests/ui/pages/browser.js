@@ -31,19 +31,12 @@ export class Browser {
     const page = await context.newPage();
     page.setDefaultTimeout(10_000);
     page.wrong = [];
-    page.bytes = 0;
     const host = new URL(url).host;
     page.on("console", (message) => ["error", "warning"].includes(message.type()) && page.wrong.push(message.text()));
     page.on("pageerror", (error) => page.wrong.push(String(error)));
     page.on("request", (request) => {
       const asked = new URL(request.url());
       if (asked.protocol !== "data:" && asked.host !== host) page.wrong.push(`asks ${request.url()}`);
-    });
-    page.on("response", async (response) => {
-      const stream = response.headers()["content-type"] === "text/event-stream";
-      const live = stream || new URL(response.url()).pathname.startsWith("/picture/");  // what goes on is no weight
-      if (response.ok() && !live && !response.url().startsWith("data:"))
-        page.bytes += (await response.body().catch(() => "")).length;
     });
     await page.goto(url);
     return page;
@@ -58,9 +51,18 @@ export class Browser {
     assert.deepEqual(serious, [], `axe-core on ${what}`);
   }
 
-  assertLight(page) {
-    assert.ok(page.bytes > 1000, "the page was measured");
-    assert.ok(page.bytes <= MOST_BYTES, `the page weighs ${page.bytes} bytes`);
+  // What this page consists of; what it asks for while it is used is no weight.
+  async assertLight(page) {
+    const bytes = await page.evaluate(async () => {
+      const names = [...performance.getEntriesByType("navigation"), ...performance.getEntriesByType("resource")]
+          .map((entry) => new URL(entry.name).pathname)
+          .filter((name) => !/^[/](command|live|picture[/].*)$/.test(name));
+      const weights = [...new Set(names)].map(async (name) => (await (await fetch(name)).arrayBuffer()).byteLength);
+      return (await Promise.all(weights)).reduce((sum, weight) => sum + weight, 0);
+    });
+    assert.ok(bytes > 1000, `of ${page.url()} only ${bytes} bytes were measured`);
+    assert.ok(bytes <= MOST_BYTES, `the page weighs ${bytes} bytes`);
+    console.log(`${new URL(page.url()).pathname} weighs ${Math.round(bytes / 1000)} kB`);
   }
 
   async photograph(page, name) {

@@ -240,7 +240,7 @@ describe("The page to draw on", () => {
 
   test("has nothing serious for axe-core, weighs little and asks nobody else", async () => {
     await lookAt("draw");
-    browser.assertLight(page);
+    await browser.assertLight(page);
     assert.deepEqual(page.wrong, []);
   });
 
@@ -291,7 +291,7 @@ describe("The page to draw on", () => {
 
   test("has a game with nothing serious for axe-core, which weighs little", async () => {
     await lookAt("game");
-    browser.assertLight(page);
+    await browser.assertLight(page);
     assert.deepEqual(page.wrong, []);
   });
 

@@ -238,8 +238,8 @@ describe("The parent's page", () => {
     await browser.assertAccessible(page, "alone");
   });
 
-  test("asks nobody else for anything, complains of nothing and is light", () => {
+  test("asks nobody else for anything, complains of nothing and is light", async () => {
     assert.deepEqual(page.wrong, []);
-    browser.assertLight(page);
+    await browser.assertLight(page);
   });
 });

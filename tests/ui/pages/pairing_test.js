@@ -119,9 +119,9 @@ describe("The pairing page", () => {
     await parent.getByText("None yet.").waitFor();
   });
 
-  test("asks nobody else for anything, complains of nothing and is light", () => {
+  test("asks nobody else for anything, complains of nothing and is light", async () => {
     assert.deepEqual(wearer.wrong, []);
-    browser.assertLight(wearer);
-    browser.assertLight(parent);
+    await browser.assertLight(wearer);
+    await browser.assertLight(parent);
   });
 });

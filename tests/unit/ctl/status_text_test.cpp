@@ -99,6 +99,14 @@ TEST(StatusText, LetsNoControlCharacterThrough) {
   EXPECT_THAT(text, HasSubstr("not connected: ?]0;x??"));
 }
 
+TEST(StatusText, LeavesOutWhatSaysNothing) {
+  const std::string text = status_text({{"side", "active"},
+                                        {"camera", {{"name", "virtual"}, {"open", false}, {"problems", Json::array()}}},
+                                        {"face", {{"finder", ""}, {"found", false}, {"pinned", nullptr}}}});
+  EXPECT_THAT(text, HasSubstr("virtual, closed\n"));
+  EXPECT_THAT(text, HasSubstr("found no\n"));
+}
+
 TEST(StatusText, BearsPartsOfAnyType) {
   const std::vector<Json> values{nullptr,
                                  true,

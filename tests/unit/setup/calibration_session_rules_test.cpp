@@ -111,6 +111,47 @@ TEST_F(Sessions, OfferAnotherLineWhenNoTriangleIsSeenForLong) {
   EXPECT_FALSE(session.state().border->vertex_px.has_value());
 }
 
+TEST_F(Sessions, DoNotGoOnWithoutAnyLine) {
+  look(cv::Mat(720, 1280, CV_8UC3, cv::Scalar::all(120)), 300);
+  EXPECT_EQ(step(), SetupStep::bright);
+  EXPECT_EQ(advice(), SetupAdvice::no_border);
+}
+
+// A keyboard's edge, say: the screen is not in the picture.
+TEST_F(Sessions, LookForTheBorderAgainWhenNothingBecomesBlackBelowALineWithoutTriangle) {
+  look(drawn(400, false), 130);
+  ASSERT_TRUE(session.confirm_border());
+  look(drawn(400, false), 440);
+  EXPECT_EQ(step(), SetupStep::background);
+  look(drawn(400, false), 30);
+  EXPECT_EQ(step(), SetupStep::bright);
+  EXPECT_EQ(advice(), SetupAdvice::no_triangle);
+}
+
+TEST_F(Sessions, WaitForBlackAsLongAsOneLikesWhereTheTriangleWasSeen) {
+  look(drawn(), 25);
+  ASSERT_TRUE(session.confirm_border());
+  look(drawn(), 900);
+  EXPECT_EQ(step(), SetupStep::background);
+}
+
+TEST_F(Sessions, EndAlsoWhenTheyGoInCirclesForFiveMinutes) {
+  SessionSettings alone = settings();
+  alone.confirm_border = false;
+  CalibrationSession circling{alone};
+  int begun = 0;
+  SetupStep before = SetupStep::bright;
+  for (int i = 0; i < 5 * 60 * 5 + 130; ++i) {
+    clock.advance(200ms);
+    circling.look(drawn(400, false), clock.now());
+    begun += before == SetupStep::background && circling.state().step == SetupStep::bright ? 1 : 0;
+    before = circling.state().step;
+  }
+  EXPECT_GT(begun, 5);
+  EXPECT_EQ(circling.state().step, SetupStep::cancelled);
+  EXPECT_EQ(circling.state().advice, SetupAdvice::idle);
+}
+
 TEST_F(Sessions, SayThatItIsTooDark) {
   look(cv::Mat(720, 1280, CV_8UC3, cv::Scalar::all(12)), 200);
   EXPECT_EQ(advice(), SetupAdvice::too_dark);

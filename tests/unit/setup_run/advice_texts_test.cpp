@@ -20,7 +20,7 @@ TEST(TheSetUpPage, HasASentenceForEveryAdviceAndStep) {
   }
   for (const SetupStep step : {SetupStep::bright, SetupStep::confirm_border, SetupStep::background, SetupStep::marks})
     EXPECT_TRUE(texts.contains(std::string("setup.now_") + name_of(step))) << name_of(step);
-  for (const char* why : {"cancelled", "idle", "unfollowed", "failed"})
+  for (const char* why : {"cancelled", "idle", "unfollowed", "stopped", "failed"})
     EXPECT_TRUE(texts.contains(std::string("setup.ended_") + why)) << why;
 }
 

@@ -29,6 +29,7 @@ struct CameraState {
   std::atomic<int> open = 0;
   std::atomic<bool> lent = false;  // by the touch thread, whenever it was open
   std::atomic<bool> faulty = false;
+  std::atomic<bool> hangs = false;
 };
 
 class CountedCamera final : public FrameSource {
@@ -38,6 +39,8 @@ class CountedCamera final : public FrameSource {
   CountedCamera(const CountedCamera&) = delete;
   CountedCamera& operator=(const CountedCamera&) = delete;
   Status open() override {
+    while (state_.hangs)
+      std::this_thread::sleep_for(1ms);
     if (!std::exchange(open_, true)) ++state_.open;
     state_.lent = handover_.wanted();
     return Done{};
@@ -101,6 +104,7 @@ class TheSetUpDesk : public testing::Test {
   SharedClock clock;
   CameraState camera;
   std::atomic<bool> lets_go = true;
+  std::atomic<bool> stopped = false;
   ControlServer control{ControlServerOptions{.socket = folder / "control.sock", .group = {}}};
   SetupDeskSettings settings() {
     return {
@@ -117,7 +121,8 @@ class TheSetUpDesk : public testing::Test {
             [] {
               return std::vector<OfferedCamera>{{"virtual", "a camera"}, {"webcam:/dev/x", "another"}};
             },
-        .monitors = [] { return std::vector<SizedMonitor>(); }};
+        .monitors = [] { return std::vector<SizedMonitor>(); },
+        .why_stopped = [this] { return std::string(stopped ? "it is stopped: resume" : ""); }};
   }
   SetupDesk desk{settings(), control};
   Json newest;
@@ -157,6 +162,45 @@ TEST_F(TheSetUpDesk, GivesTheCameraBackWhenItIsBrokenOff) {
   told_stage("idle");
 }
 
+TEST_F(TheSetUpDesk, EndsWhenSomebodyStopsAndBeginsNoneBeforeTheyResume) {
+  ask({{"order", "start"}});
+  told_stage("running");
+  stopped = true;
+  EXPECT_EQ(told_stage("ended")["why"], "stopped");
+  EXPECT_EQ(camera.open, 0);
+  EXPECT_FALSE(desk.camera().wanted());
+  EXPECT_EQ(ask({{"order", "start"}}).value("error", ""), "it is stopped: resume");
+  stopped = false;
+  EXPECT_EQ(ask({{"order", "start"}}).value("error", ""), "");
+  told_stage("running");
+}
+
+TEST_F(TheSetUpDesk, SaysThatTheCameraHangsAndEndsWhenItDoesNotAnyMore) {
+  camera.hangs = true;
+  ask({{"order", "start"}});
+  told_stage("waiting");
+  clock.advance(10s);
+  desk.followed();
+  EXPECT_FALSE(desk.camera_hangs());
+  clock.advance(1ms);
+  EXPECT_TRUE(desk.camera_hangs());
+  told([](const Json& news) { return news["stage"] == "waiting" && news.value("hangs", false); });
+  EXPECT_THAT(ask({{"order", "start"}}).value("error", ""), HasSubstr("unplug it"));
+  ask({{"order", "cancel"}});
+  camera.hangs = false;
+  EXPECT_EQ(told_stage("ended")["why"], "cancelled");
+  EXPECT_FALSE(desk.camera_hangs());
+}
+
+TEST_F(TheSetUpDesk, EndsAtOnceWhileTheTouchThreadStillHasTheCamera) {
+  lets_go = false;
+  ask({{"order", "start"}});
+  told_stage("waiting");
+  ask({{"order", "cancel"}});
+  EXPECT_EQ(told_stage("ended")["why"], "cancelled");
+  EXPECT_FALSE(desk.camera().wanted());
+}
+
 TEST_F(TheSetUpDesk, EndsWhenNoPageHasFollowedForTenSeconds) {
   ask({{"order", "start"}});
   told_stage("running");
@@ -171,6 +215,26 @@ TEST_F(TheSetUpDesk, EndsWhenNoPageHasFollowedForTenSeconds) {
   EXPECT_EQ(camera.open, 0);
 }
 
+TEST_F(TheSetUpDesk, EndsThoughAPageIsOpenWhenNobodyGoesOnForAQuarterOfAnHour) {
+  const auto minutes_pass = [this](int minutes) {
+    for (int i = 0; i < 12 * minutes; ++i) {
+      clock.advance(5s);
+      desk.followed();
+    }
+  };
+  ask({{"order", "start"}});
+  told_stage("running");
+  minutes_pass(14);
+  EXPECT_FALSE(ask({{"order", "camera"}}).contains("error")) << "an order: somebody is there";
+  minutes_pass(14);
+  EXPECT_FALSE(ask({{"order", "camera"}}).contains("error"));
+  EXPECT_EQ(camera.open, 1);
+  minutes_pass(16);
+  EXPECT_EQ(told_stage("ended")["why"], "idle");
+  EXPECT_EQ(camera.open, 0);
+  EXPECT_FALSE(desk.camera().wanted());
+}
+
 TEST_F(TheSetUpDesk, TellsASecondPageThatOneRunsAlready) {
   ask({{"order", "start"}});
   told_stage("running");
@@ -180,10 +244,7 @@ TEST_F(TheSetUpDesk, TellsASecondPageThatOneRunsAlready) {
 
 TEST_F(TheSetUpDesk, BeginsAnewAfterOneHasEnded) {
   for (int time = 0; time < 3; ++time) {
-    Json answer;
-    do {
-      answer = ask({{"order", "start"}});  // the one before may just be putting its things away
-    } while (answer.contains("error"));
+    ASSERT_EQ(ask({{"order", "start"}}).value("error", ""), "");
     told_stage("running");
     ask({{"order", "cancel"}});
     told_stage("ended");
@@ -257,17 +318,38 @@ TEST_F(TheSetUpDesk, SurvivesACameraThatFailsAndSaysSo) {
 }
 
 TEST(TheHandoverOfTheCamera, KeepsItWithTheTouchesIfTheyDontLetGo) {
-  CameraHandover handover;
+  const SharedClock clock;
+  CameraHandover handover(clock);
   EXPECT_FALSE(handover.wanted());
   EXPECT_FALSE(handover.take(20ms));
   EXPECT_FALSE(handover.wanted());
 }
 
 TEST(TheHandoverOfTheCamera, IsNotMadeByLettingGoOfWhatNobodyWants) {
-  CameraHandover handover;
+  const SharedClock clock;
+  CameraHandover handover(clock);
   handover.let_go();
   EXPECT_FALSE(handover.wanted());
   EXPECT_FALSE(handover.take(20ms)) << "it is only let go of when it was wanted before";
+}
+
+TEST(TheHandoverOfTheCamera, LeavesTouchesToTheSetUpForAMomentLonger) {
+  SharedClock clock;
+  CameraHandover handover(clock);
+  EXPECT_FALSE(handover.touched_here());
+  std::jthread touch_thread([&](const std::stop_token& stop) {
+    while (!stop.stop_requested())
+      handover.let_go();
+  });
+  ASSERT_TRUE(handover.take(10s));
+  clock.advance(1h);
+  EXPECT_TRUE(handover.touched_here());
+  handover.give_back();
+  EXPECT_FALSE(handover.wanted());
+  clock.advance(1'999ms);
+  EXPECT_TRUE(handover.touched_here()) << "a finger that lies there is not for the wearer";
+  clock.advance(1ms);
+  EXPECT_FALSE(handover.touched_here());
 }
 
 }  // namespace

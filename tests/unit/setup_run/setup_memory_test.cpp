@@ -76,12 +76,12 @@ TEST_F(WhatWasSetUp, IsToldToBeOverruled) {
   sources.overrides = {"rig.screen_width_mm=400"};
   auto kept = remember_setup(choice, sources);
   ASSERT_FALSE(kept);
-  EXPECT_THAT(kept.error().message, HasSubstr("[rig] screen_width_mm is set elsewhere, too"));
+  EXPECT_THAT(kept.error().message, HasSubstr("[rig] screen_width_mm is set in --set rig.screen_width_mm=400, too"));
   sources.overrides = {};
   folder.write("home/active.d/60-mine.toml", "[camera]\nsource = \"virtual\"\n");
   kept = remember_setup(choice, sources);
   ASSERT_FALSE(kept);
-  EXPECT_THAT(kept.error().message, HasSubstr("[camera] source is set elsewhere, too"));
+  EXPECT_THAT(kept.error().message, AllOf(HasSubstr("[camera] source is set in "), HasSubstr("60-mine.toml, too")));
 }
 
 TEST_F(WhatWasSetUp, IsToldNotToBeKeptWhereTheFolderCantBeWritten) {

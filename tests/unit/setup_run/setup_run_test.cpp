@@ -5,9 +5,11 @@
 
 #include <opencv2/core.hpp>
 
+#include "capture/measure_scene.hpp"
 #include "doubles/fake_camera_controls.hpp"
 #include "doubles/planned_frame_source.hpp"
 #include "doubles/temporary_folder.hpp"
+#include "setup_run/tuning_with_finger.hpp"
 
 namespace telehug {
 namespace {
@@ -135,6 +137,10 @@ TEST_F(ASetUp, GoesOnLookingForTheEdgeAsLongAsTheCameraIsLookedAt) {
     EXPECT_EQ(told()["step"], "camera");
     EXPECT_TRUE(told()["border"].is_object()) << second;
   }
+  camera->picture.setTo(cv::Scalar::all(90));
+  camera->picture.rowRange(450, 720).setTo(cv::Scalar::all(220));
+  turns(30);
+  EXPECT_NEAR(told()["border"]["points"][4][1].get<double>(), 450, 2) << "the camera was turned";
 }
 
 TEST_F(ASetUp, CountsPicturesOfASecond) {
@@ -196,9 +202,9 @@ TEST_F(ASetUp, IsOverWhenNobodyComesToItsPages) {
   begin();
   order("begin");
   turns(3);
-  clock.advance(299s);  // whatever edge there is is found by then
+  clock.advance(290s);
   turns(2);
-  EXPECT_EQ(told()["step"], "confirm_border");
+  EXPECT_EQ(told()["step"], "bright") << "no edge is seen";
   EXPECT_FALSE(run->over());
   clock.advance(301s);
   turns(2);
@@ -227,11 +233,6 @@ TEST_F(ASetUp, HasNothingToTuneInACameraThatIsNone) {
 
 TEST_F(ASetUp, TunesAWebcamWithAFingerOnTheScreenAndTellsHowFarItIs) {
   std::vector<double> progress;
-  goes_on = [&] {
-    EXPECT_EQ(told()["run"]["tune"]["phase"], "search");
-    progress.push_back(told()["run"]["tune"]["progress"]);
-    return true;
-  };
   device.controls[8].value = V4L2_EXPOSURE_MANUAL;
   begin_with_webcam();
   turns(2);
@@ -242,6 +243,11 @@ TEST_F(ASetUp, TunesAWebcamWithAFingerOnTheScreenAndTellsHowFarItIs) {
   EXPECT_EQ(told()["run"]["tune"]["phase"], "finger");
   finger = true;
   order("tune_next");
+  goes_on = [&] {
+    EXPECT_EQ(told()["run"]["tune"]["phase"], "search");
+    progress.push_back(told()["run"]["tune"]["progress"]);
+    return true;
+  };
   run->turn();
   const Json tune = told()["run"]["tune"];
   EXPECT_EQ(tune["phase"], "done") << tune;
@@ -256,18 +262,27 @@ TEST_F(ASetUp, TunesAWebcamWithAFingerOnTheScreenAndTellsHowFarItIs) {
 
 TEST_F(ASetUp, EndsTheSearchWhenItIsToldToAndKeepsNothingOfIt) {
   int asked = 0;
-  goes_on = [&asked] { return ++asked < 5; };
   device.controls[8].value = V4L2_EXPOSURE_MANUAL;
   begin_with_webcam();
   order("tune");
   order("tune_next");
   finger = true;
   order("tune_next");
+  constexpr int last = settle_frames + 1 + 5;  // five times in the search
+  goes_on = [&asked] { return ++asked < last; };
   run->turn();
-  EXPECT_EQ(asked, 5);
+  EXPECT_EQ(asked, last);
   EXPECT_FALSE(told()["run"]["tune"]["complete"].get<bool>());
   EXPECT_FALSE(std::filesystem::exists(folder / "camera.toml"));
   EXPECT_EQ(reopened.back(), tools.capture.webcam_setup.preset);
+}
+
+TEST(AFreshPicture, IsNotWaitedForAnyLongerThanSomebodyWantsIt) {
+  PlannedFrameSource camera;
+  camera.outcome = ReadOutcome::timeout;
+  int asked = 0;
+  EXPECT_FALSE(fresh_picture(camera, nullptr, [&asked] { return ++asked < 3; }));
+  EXPECT_EQ(asked, 3);
 }
 
 TEST_F(ASetUp, SaysWhyTuningIsNoSuccess) {

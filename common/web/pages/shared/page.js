@@ -22,6 +22,20 @@ export function write(element, content) {
   if (element.textContent !== content) element.textContent = content;
 }
 
+// A text, and what the daemon says to it, which is English.
+export function writeWithSaid(element, content, said) {
+  if (element.textContent === `${content} ${said}`.trim()) return;
+  element.replaceChildren(content);
+  if (said !== "") element.append(content === "" ? "" : " ", make("span", {lang: "en", textContent: said}));
+}
+
+// What was refused: by the daemon, or by the page itself.
+export function writeProblem(element, problem) {
+  write(element, problem.message);
+  if (problem.fromDaemon) element.lang = "en";
+  else element.removeAttribute("lang");
+}
+
 export function make(tag, properties = {}, ...children) {
   const element = Object.assign(document.createElement(tag), properties);
   element.append(...children);
@@ -43,12 +57,15 @@ export async function command(request) {
   });
   if (response.status === 401) complain(text("lost.session"));
   const answer = response.headers.get("Content-Type") === "application/json" ? await response.json() : {};
-  if (!response.ok || answer.error) throw new Error(answer.error ?? text("lost.connection"));
+  if (answer.error) throw Object.assign(new Error(answer.error), {fromDaemon: true});
+  if (!response.ok) throw new Error(text("lost.connection"));
   return answer;
 }
 
-// Follows topics; handlers[topic] gets each newest value. Returns what ends it.
-export function follow(handlers) {
+// Follows topics while the page can be seen, or always; handlers[topic] gets each newest value. Returns what ends it.
+// Browsers have six connections for all pages of a server: forgotten tabs would keep others from loading, and from
+// stopping.
+export function follow(handlers, {inBackground = false} = {}) {
   let source = null;
   let again = 0;
   const begin = () => {
@@ -70,10 +87,20 @@ export function follow(handlers) {
       }, 3000);
     });
   };
-  begin();
-  return () => {
+  const pause = () => {
     clearTimeout(again);
-    source.close();
+    source?.close();
+    source = null;
+  };
+  const judge = () => {
+    if (document.hidden && !inBackground) pause();
+    else if (source === null) begin();
+  };
+  judge();
+  document.addEventListener("visibilitychange", judge);
+  return () => {
+    document.removeEventListener("visibilitychange", judge);
+    pause();
   };
 }
 
@@ -119,7 +146,7 @@ export function onPress(button, act) {
     try {
       await act();
     } catch (problem) {
-      write(refusal, problem.message);
+      writeProblem(refusal, problem);
     } finally {
       button.removeAttribute("aria-busy");
     }

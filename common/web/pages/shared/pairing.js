@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // How this PC and another become a pair, and which pairs there are.
-import {beginPage, command, follow, make, onPress, text, write} from "/shared/page.js";
+import {beginPage, command, follow, make, onPress, text, write, writeProblem} from "/shared/page.js";
 
 const part = (id) => document.getElementById(id);
 let pairing = {state: "idle"};
@@ -79,7 +79,7 @@ function onSubmit(form, act) {
     try {
       await act();
     } catch (problem) {
-      write(part("refusal"), problem.message);
+      writeProblem(part("refusal"), problem);
     }
   });
 }
