@@ -15,3 +15,7 @@ telehug_test(test_pair_command KIND integration SUBJECT link
   SOURCES integration/ctl/pair_command_test.cpp
   DEPS nlohmann_json::nlohmann_json)
 add_dependencies(test_pair_command telehug)
+
+add_test(NAME test_units COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/integration/deploy/units_test.sh
+  ${CMAKE_BINARY_DIR}/deploy/systemd ${CMAKE_RUNTIME_OUTPUT_DIRECTORY})
+set_tests_properties(test_units PROPERTIES LABELS "integration;ops" TIMEOUT 60)

@@ -15,6 +15,7 @@
 namespace {
 
 using ::testing::Contains;
+using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::Key;
 using ::testing::Not;
@@ -110,6 +111,16 @@ TEST(UdevRules, GiveTheJacketsPortANameAndAGroup) {
   EXPECT_THAT(done, Contains(Pair("SYMLINK", "haptic-jacket")));
   EXPECT_THAT(done, Contains(Pair("GROUP", "dialout")));
   EXPECT_THAT(done, Contains(Pair("MODE", "0660")));
+}
+
+TEST(UdevRules, StartTheDaemonWhenTheJacketIsPluggedIn) {
+  const Values done = applied_to(terminal);
+  EXPECT_THAT(done, Contains(Pair("TAG", HasSubstr("systemd"))));
+  EXPECT_THAT(done, Contains(Pair("ENV{SYSTEMD_WANTS}", "telehug-passive.service")));
+}
+
+TEST(UdevRules, LetWhoSitsAtThePcUseTheJacketsPort) {
+  EXPECT_THAT(applied_to(terminal), Contains(Pair("TAG", HasSubstr("uaccess"))));
 }
 
 TEST(UdevRules, KeepModemManagerAwayBeforeItsOwnRulesAreRead) {
