@@ -8,6 +8,7 @@
 
 #include "config/places.hpp"
 #include "ctl/command.hpp"
+#include "ctl/folder_owner.hpp"
 #include "ctl/pair_side.hpp"
 #include "ctl/pairing_steps.hpp"
 #include "pairing/wireguard.hpp"
@@ -79,6 +80,11 @@ class PairCommands {
           return;
         }
         wish.wireguard = *endpoint;
+      }
+      if (const Status owned = become_owner_of(wish.folder); !owned) {
+        (void)std::fprintf(stderr, "telehug: %s\n", owned.error().message.c_str());
+        result = ExitCode::refused;
+        return;
       }
       result = step(wish);
     });

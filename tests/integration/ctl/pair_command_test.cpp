@@ -2,7 +2,9 @@
 //
 // `telehug pair` as two PCs use it: two stores, real programs, loopback.
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 #include <sys/wait.h>
+#include <unistd.h>
 
 #include <cstdlib>
 #include <nlohmann/json.hpp>
@@ -64,6 +66,27 @@ class PairCommand : public testing::Test {
 
   TemporaryFolder folder_;
 };
+
+// The daemon's account could not read what root wrote.
+TEST_F(PairCommand, OfRootLeavesEverythingToWhomTheFolderBelongs) {
+  if (geteuid() != 0) GTEST_SKIP() << "this is not root";
+  constexpr uid_t other = 4242;
+  ASSERT_EQ(chmod(folder_.path().c_str(), 0755), 0);  // as /var/lib is; the program writes into its out.txt anyway
+  const auto state = folder_ / "state";
+  std::filesystem::create_directory(state);
+  ASSERT_EQ(chown(state.c_str(), other, other), 0);
+  ASSERT_EQ(run("request --name Mum --side active --folder " + (state / "pairs" / "active").string()), 0)
+      << content("errors.txt");
+  int files = 0;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(state)) {
+    struct stat found {};
+    ASSERT_EQ(stat(entry.path().c_str(), &found), 0);
+    EXPECT_EQ(found.st_uid, other) << entry.path();
+    EXPECT_EQ(found.st_gid, other) << entry.path();
+    files += entry.is_regular_file() ? 1 : 0;
+  }
+  EXPECT_GT(files, 0);
+}
 
 TEST_F(PairCommand, InvitesAcceptsListsAndRevokes) {
   const ChildProgram inviter = invite();
