@@ -1,37 +1,40 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <CLI/CLI.hpp>
-#include <cstdio>
-#include <exception>
 #include <opencv2/core/utility.hpp>
 
+#include "cli/program.hpp"
 #include "commands/command.hpp"
-#include "common/version.hpp"
 
 namespace {
 
 using telehug::ExitCode;
 
-constexpr const char* examples = R"(
-Examples:
-  telehug-active calibrate --width-mm 380 --height-mm 300
-  telehug-active camera tune
-  telehug-active run --source webcam --set body_map.picture=chat.jpg
-  telehug-active eval touch RIG_DIR --out touches.csv --detector thesis --model thesis
-  telehug-active eval rigs --from 1 --count 100 --report rigs.html
-  telehug-active show-boxes chat.jpg --out boxes.png
+const telehug::Program program{
+    .name = "telehug-active",
+    .purpose = "Sees touches on this PC's monitor and sends them to the other side.",
+    .examples =
+        {
+            {"telehug-active calibrate --width-mm 380 --height-mm 300",
+             "with the webcam: asks for touches of known points"},
+            {"telehug-active calibrate --source replay:RIG_DIR", "of a recording"},
+            {"telehug-active camera tune", "in difficult light: chooses exposure and more"},
+            {"telehug-active camera list", "what can be set and how it is"},
+            {"telehug-active camera restore", "as it was before telehug changed it"},
+            {"telehug-active run", "the daemon, as the configuration says"},
+            {"telehug-active run --source webcam --set body_map.picture=chat.jpg", "on a still picture"},
+            {"telehug-active look --seconds 10", "what is seen of the person on this screen"},
+            {"telehug-active record DIR --seconds 20", "keeps what the camera sees"},
+            {"telehug-active eval touch RIG_DIR --out touches.csv --detector thesis --model thesis",
+             "the thesis' algorithm on a recording"},
+            {"telehug-active eval face DIR --out faces.csv", "where the face is in each picture"},
+            {"telehug-active eval rigs --from 1 --count 100 --report rigs.html", "on a hundred rigs drawn at random"},
+            {"telehug-active show-boxes chat.jpg --out boxes.png", "the grid of boxes on a picture"},
+        },
+    .exits = {ExitCode::ok, ExitCode::internal, ExitCode::usage, ExitCode::config, ExitCode::device,
+              ExitCode::already_running, ExitCode::network, ExitCode::pair_ended},
+    .see_also = {"telehug(1)", "telehug-active.toml(5)", "telehug(7)", "telehug-daemons(8)"},
+};
 
-Exit codes: 0 ok, 1 fault of telehug, 2 wrong command line, 3 faults in the configuration, 4 a camera, picture or
-  recording can't be used, 10 another telehug-active runs, 13 DDS can't be set up, 15 the pair was revoked or has
-  expired.)";
-
-ExitCode parse_and_run(int argc, char** argv) {
-  // A second thread makes nothing here faster and would compete with the touch path.
-  cv::setNumThreads(1);
-  ExitCode result = ExitCode::ok;
-  CLI::App app("Sees touches on this PC's monitor and sends them to the other side.", "telehug-active");
-  app.footer(examples);
-  app.set_version_flag("--version", telehug::version);
-  app.require_subcommand(1);
+void add_commands(CLI::App& app, ExitCode& result) {
   telehug::add_run(app, result);
   telehug::add_calibrate(app, result);
   telehug::add_camera(app, result);
@@ -39,22 +42,12 @@ ExitCode parse_and_run(int argc, char** argv) {
   telehug::add_eval(app, result);
   telehug::add_show_boxes(app, result);
   telehug::add_look(app, result);
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& problem) {
-    // --help and --version come this way, too, with code 0.
-    result = app.exit(problem) == 0 ? ExitCode::ok : ExitCode::usage;
-  }
-  return result;
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  try {
-    return telehug::to_int(parse_and_run(argc, argv));
-  } catch (const std::exception& problem) {
-    (void)std::fprintf(stderr, "telehug-active: %s\n", problem.what());
-    return telehug::to_int(ExitCode::internal);
-  }
+  // A second thread makes nothing here faster and would compete with the touch path.
+  cv::setNumThreads(1);
+  return telehug::run_program(argc, argv, program, add_commands);
 }

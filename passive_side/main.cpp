@@ -2,10 +2,11 @@
 #include <fmt/core.h>
 
 #include <CLI/CLI.hpp>
-#include <cstdio>
-#include <exception>
+#include <memory>
+#include <string>
+#include <vector>
 
-#include "common/version.hpp"
+#include "cli/program.hpp"
 #include "config/load.hpp"
 #include "config/places.hpp"
 #include "jacket/jacket_overrides.hpp"
@@ -18,14 +19,20 @@ namespace {
 
 using namespace telehug;
 
-constexpr const char* examples = R"(
-Examples:
-  telehug-passive run --set jacket.link=serial:/dev/serial/by-id/usb-FTDI...
-  telehug-passive run --set jacket.link=simulated
-
-Exit codes: 0 ok, 1 fault of telehug, 2 wrong command line, 3 faults in the configuration or the jacket's profile,
-  4 the jacket, its stop button or its power line can't be used, 10 another telehug-passive runs, 13 DDS can't be set up,
-  15 the pair was revoked or has expired.)";
+const Program program{
+    .name = "telehug-passive",
+    .purpose = "Lets the jacket on this PC be touched from the other side, within its limits.",
+    .examples =
+        {
+            {"telehug-passive run", "the daemon, as the configuration says"},
+            {"telehug-passive run --set jacket.link=serial:/dev/serial/by-id/usb-FTDI...", "a jacket on a serial port"},
+            {"telehug-passive run --set jacket.link=simulated", "without a jacket"},
+            {"telehug-passive check-jacket my-jacket.toml", "is this profile right?"},
+        },
+    .exits = {ExitCode::ok, ExitCode::internal, ExitCode::usage, ExitCode::config, ExitCode::device,
+              ExitCode::already_running, ExitCode::network, ExitCode::pair_ended},
+    .see_also = {"telehug(1)", "telehug-jacket-sim(1)", "telehug-passive.toml(5)", "telehug(7)", "telehug-daemons(8)"},
+};
 
 struct Options {
   std::string file;
@@ -83,42 +90,33 @@ ExitCode check_jackets(const std::vector<std::string>& files, const std::string&
   return result;
 }
 
-ExitCode parse_and_run(int argc, char** argv) {
-  ExitCode result = ExitCode::ok;
-  CLI::App app("Lets the jacket on this PC be touched from the other side, within its limits.", "telehug-passive");
-  app.footer(examples);
-  app.set_version_flag("--version", telehug::version);
-  app.require_subcommand(1);
-  Options options;
+void add_run(CLI::App& app, ExitCode& result) {
+  auto options = std::make_shared<Options>();
   CLI::App* command = app.add_subcommand("run", "Drive the jacket, until SIGTERM (this is the daemon)");
-  command->add_option("--config", options.file, "Read only this file")->type_name("FILE");
-  command->add_option("--set", options.overrides, "Override one key, as often as you like")
+  command->add_option("--config", options->file, "Read only this file")->type_name("FILE");
+  command->add_option("--set", options->overrides, "Override one key, as often as you like")
       ->type_name("SECTION.KEY=VALUE")
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-  command->callback([&] { result = run(options); });
-  std::vector<std::string> files;
-  std::string overrides;
+  command->callback([options, &result] { result = run(*options); });
+}
+
+void add_check_jacket(CLI::App& app, ExitCode& result) {
+  auto files = std::make_shared<std::vector<std::string>>();
+  auto overrides = std::make_shared<std::string>();
   CLI::App* check = app.add_subcommand("check-jacket", "Are these jacket profiles right? Lists all their faults");
-  check->add_option("FILE", files, "Profiles (TOML; deploy/jackets/README.md explains them)")->required();
-  check->add_option("--overrides", overrides, "The wearer's own limits to them")->type_name("FILE");
-  check->callback([&] { result = check_jackets(files, overrides); });
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& problem) {
-    // --help and --version come this way, too, with code 0.
-    result = app.exit(problem) == 0 ? ExitCode::ok : ExitCode::usage;
-  }
-  return result;
+  check->add_option("files", *files, "Profiles (TOML; deploy/jackets/README.md explains them)")
+      ->required()
+      ->type_name("FILE");
+  check->add_option("--overrides", *overrides, "The wearer's own limits to them")->type_name("FILE");
+  check->callback([files, overrides, &result] { result = check_jackets(*files, *overrides); });
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  try {
-    return to_int(parse_and_run(argc, argv));
-  } catch (const std::exception& problem) {
-    (void)std::fprintf(stderr, "telehug-passive: %s\n", problem.what());
-    return to_int(ExitCode::internal);
-  }
+  return run_program(argc, argv, program, [](CLI::App& app, ExitCode& result) {
+    add_run(app, result);
+    add_check_jacket(app, result);
+  });
 }

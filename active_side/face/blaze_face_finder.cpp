@@ -16,6 +16,7 @@
 #include <system_error>
 #include <utility>
 
+#include "common/data_folder.hpp"
 #include "face/checked_search.hpp"
 
 namespace telehug {
@@ -197,7 +198,7 @@ class BlazeFaceFinder final : public FaceFinder {
 }  // namespace
 
 std::vector<fs::path> known_blaze_models() {
-  return {fs::path(TELEHUG_INSTALLED_MODELS) / model_name, fs::path(TELEHUG_SOURCE_MODELS) / model_name};
+  return {data_folder() / "models" / model_name};
 }
 
 Result<std::unique_ptr<FaceFinder>> make_blaze_face_finder(const std::vector<fs::path>& paths) {

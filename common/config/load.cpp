@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "config/config_report.hpp"
 #include "config/key.hpp"
 #include "config/toml_reader.hpp"
 
@@ -40,10 +41,9 @@ std::string listing(const std::vector<Fault>& faults) {
   return text;
 }
 
+// All layers, one after the other, into the keys of `config`.
 template <typename Config>
-Result<Config> load(const ConfigSources& sources, Side side) {
-  Config config;
-  std::vector<Key> keys = keys_of(config);
+std::vector<Fault> read_layers(const ConfigSources& sources, Side side, const Config& config, std::vector<Key>& keys) {
   std::vector<Fault> faults;
   for (const auto& file : config_files(sources, side))
     read_toml_file(file, keys, faults);
@@ -51,8 +51,32 @@ Result<Config> load(const ConfigSources& sources, Side side) {
     apply_override(text, keys, faults);
   for (Fault& fault : impossible_combinations(config, keys))
     faults.push_back(std::move(fault));
+  return faults;
+}
+
+template <typename Config>
+Result<Config> load(const ConfigSources& sources, Side side) {
+  Config config;
+  std::vector<Key> keys = keys_of(config);
+  const std::vector<Fault> faults = read_layers(sources, side, config, keys);
   if (!faults.empty()) return Error{listing(faults)};
   return config;
+}
+
+template <typename Config>
+ConfigReport inspect(const ConfigSources& sources, Side side) {
+  Config config;
+  std::vector<Key> keys = keys_of(config);
+  ConfigReport report;
+  for (const Key& key : keys)
+    report.settings.push_back({std::string(key.section), std::string(key.name), {}, toml_text(key.target), {}});
+  report.files = config_files(sources, side);
+  report.faults = read_layers(sources, side, config, keys);
+  for (std::size_t i = 0; i < keys.size(); ++i) {
+    report.settings[i].value = toml_text(keys[i].target);
+    report.settings[i].origin = keys[i].origin;
+  }
+  return report;
 }
 
 }  // namespace
@@ -63,6 +87,10 @@ Result<ActiveConfig> load_active_config(const ConfigSources& sources) {
 
 Result<PassiveConfig> load_passive_config(const ConfigSources& sources) {
   return load<PassiveConfig>(sources, Side::passive);
+}
+
+ConfigReport inspect_config(const ConfigSources& sources, Side side) {
+  return side == Side::active ? inspect<ActiveConfig>(sources, side) : inspect<PassiveConfig>(sources, side);
 }
 
 }  // namespace telehug

@@ -6,6 +6,8 @@
 #include <cstdlib>
 #include <string>
 
+#include "common/data_folder.hpp"
+
 namespace telehug {
 namespace {
 
@@ -53,14 +55,14 @@ std::filesystem::path consent_file(const ConsentConfig& config) {
 }
 
 std::filesystem::path installed_jacket_file(const std::filesystem::path& given) {
-  const std::filesystem::path installed = std::filesystem::path(TELEHUG_DATA_DIR) / "jackets";
+  const std::filesystem::path installed = data_folder() / "jackets";
   std::error_code ignored;
   if (given.is_absolute() || std::filesystem::exists(given, ignored)) return given;
   return std::filesystem::exists(installed / given, ignored) ? installed / given : given;
 }
 
 std::filesystem::path jacket_profile_file(const JacketConfig& config) {
-  const std::filesystem::path installed = std::filesystem::path(TELEHUG_DATA_DIR) / "jackets";
+  const std::filesystem::path installed = data_folder() / "jackets";
   return config.profile.empty() ? installed / "duemilanove-16.toml" : installed_jacket_file(config.profile);
 }
 

@@ -27,6 +27,8 @@ void add_face(CLI::App& app, ExitCode& result);
 void add_hug(CLI::App& app, ExitCode& result);
 void add_jacket(CLI::App& app, ExitCode& result);
 void add_open(CLI::App& app, ExitCode& result);
+void add_config(CLI::App& app, ExitCode& result);
+void add_doctor(CLI::App& app, ExitCode& result);
 void add_pair(CLI::App& app, ExitCode& result);
 void add_version(CLI::App& app, ExitCode& result);
 

@@ -39,7 +39,8 @@ void add_daemon_options(CLI::App& command, DaemonChoice& choice) {
 }
 
 void add_socket_option(CLI::App& command, DaemonChoice& choice) {
-  command.add_option("--socket", choice.socket, "The daemon's local socket (default: the usual places)");
+  command.add_option("--socket", choice.socket, "The daemon's local socket (default: the usual places)")
+      ->type_name("SOCKET");
 }
 
 Daemons find_daemons(const DaemonChoice& choice) {

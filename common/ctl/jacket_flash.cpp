@@ -15,6 +15,7 @@
 #include <optional>
 #include <string>
 
+#include "common/data_folder.hpp"
 #include "config/load.hpp"
 #include "config/locator.hpp"
 #include "ctl/avrdude.hpp"
@@ -48,12 +49,8 @@ std::string file_of_board(const std::string& board) {
   return board == "motors16" ? "telehug-jacket.hex" : fmt::format("telehug-jacket-{}.hex", board);
 }
 
-// Beside a program that was built and not installed, else the installed one.
 fs::path firmware_of_board(const std::string& board) {
-  std::error_code ignored;
-  const fs::path program = fs::read_symlink("/proc/self/exe", ignored);
-  fs::path built = program.parent_path().parent_path() / "firmware" / file_of_board(board);
-  return fs::exists(built, ignored) ? built : fs::path(TELEHUG_INSTALLED_FIRMWARE) / file_of_board(board);
+  return data_folder() / "firmware" / file_of_board(board);
 }
 
 Status check_firmware(const fs::path& file) {

@@ -9,13 +9,17 @@
 #include "ctl/command.hpp"
 #include "ctl/daemons.hpp"
 #include "ctl/plain_text.hpp"
+#include "ctl/run_program.hpp"
 
 namespace telehug {
 namespace {
 
+constexpr Duration longest_start = 30s;
+
 struct Options {
   DaemonChoice daemons;
   bool print = false;
+  bool start = false;
 };
 
 // Whatever answers on the socket decides what is opened: no more than a page of this PC.
@@ -31,8 +35,26 @@ ExitCode show(const Daemon& daemon, const std::string& url) {
                   fmt::format("{}; open this link within a minute: {}", shown.error().message, url));
 }
 
+// As the service of this person, whose it is to see the screen.
+Status start_active_daemon() {
+  const auto run = run_program({"systemctl", "--user", "start", "telehug-active.service"}, longest_start,
+                               "there is no systemctl that would start telehug-active");
+  if (!run) return run.error();
+  if (run->code == 0) return Done{};
+  return Error{fmt::format("telehug-active can't be started: {}; `journalctl --user -u telehug-active` may tell more",
+                           run->timed_out ? "it takes too long" : plain_text(run->output))};
+}
+
 ExitCode open(const Options& options) {
   Daemons daemons = find_daemons(options.daemons);
+  const bool none_runs = daemons.found.empty() && daemons.unreachable.front().code == ExitCode::not_running;
+  if (options.start && none_runs) {
+    if (const Status started = start_active_daemon(); !started) {
+      fmt::print(stderr, "telehug: {}\n", started.error().message);
+      return ExitCode::not_running;
+    }
+    daemons = find_daemons(options.daemons);
+  }
   ExitCode result = complain_of_unreachable(daemons);
   for (Daemon& daemon : daemons.found) {
     const auto reply = daemon.client.ask({{"command", "open"}});
@@ -58,6 +80,7 @@ void add_open(CLI::App& app, ExitCode& result) {
   CLI::App* command = app.add_subcommand("open", "Show the pages of the daemons on this PC in the browser");
   command->add_option("side", options->daemons.side, "Only this side's: active or passive (default: all on this PC)")
       ->check(CLI::IsMember({"active", "passive"}));
+  command->add_flag("--start", options->start, "If there is none, first start telehug-active in this person's session");
   command->add_flag("--print", options->print, "Only print the link, which works once, within a minute");
   add_socket_option(*command, options->daemons);
   command->callback([options, &result] { result = open(*options); });

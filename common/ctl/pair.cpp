@@ -17,13 +17,9 @@ namespace telehug {
 
 namespace {
 
-constexpr const char* examples = R"(
-Examples:
-  telehug pair invite --name "Mum"            prints a code; tell it to the other person
-  telehug pair invite --qr                    prints it for a camera, too
-  telehug pair accept CODE --name "Kim"       on the other PC; both print a phrase to compare
-  telehug pair list
-  telehug pair revoke 0123456789abcdef        on each PC
+constexpr const char* ways = R"(
+On one network: `invite` prints a code; tell it to the other person, who gives it to `accept`. Both print a phrase to
+compare.
 
 Between two homes (one of the PCs can be dialled at a forwarded UDP port or an IPv6 address):
   telehug pair invite --wireguard home.example.org:51820
@@ -36,9 +32,7 @@ Where the PCs can't reach each other directly, by chat or USB stick:
 
 A pair is valid for a year and is renewed by itself while both PCs are connected. By hand:
   telehug pair renew Mum > renewal.txt        on the wearer's PC
-  telehug pair finish < renewal.txt           on the parent's PC
-
-Exit codes: 0 ok, 2 wrong command line or code, 9 the pairing failed, 13 can't listen at the address.)";
+  telehug pair finish < renewal.txt           on the parent's PC)";
 
 struct Given {
   PairingWish wish;
@@ -60,7 +54,8 @@ class PairCommands {
     command
         ->add_option("--side", given_->side, "What this PC is: active (parent's), passive (wearer's); default: found")
         ->check(CLI::IsMember({"active", "passive"}));
-    command->add_option("--folder", given_->wish.folder, "Where the pairs are kept (default: telehug's state folder)");
+    command->add_option("--folder", given_->wish.folder, "Where the pairs are kept (default: telehug's state folder)")
+        ->type_name("DIR");
     command->callback([given = given_, step, of, &result = result_] {
       const auto side = side_of_this_pc(given->side.empty() ? of : given->side);
       if (!side) {
@@ -94,13 +89,16 @@ class PairCommands {
     command->add_option("--name", given_->wish.name, "How the other person sees you (default: this PC's name)");
   }
   void json(CLI::App* command) { command->add_flag("--json", given_->wish.json, "For programs"); }
-  void file(CLI::App* command, const char* about) { command->add_option("--file", given_->wish.file, about); }
+  void file(CLI::App* command, const char* about) {
+    command->add_option("--file", given_->wish.file, about)->type_name("FILE");
+  }
   void word(CLI::App* command, const char* name, const char* about) {
     command->add_option(name, given_->wish.word, about)->required();
   }
   void qr(CLI::App* command) {
     command->add_flag("--qr", given_->wish.qr, "Print it as a QR code, too, for a camera (37 columns, 19 lines)");
-    command->add_option("--qr-svg", given_->wish.qr_svg, "Write the QR code as an SVG picture that only you can read");
+    command->add_option("--qr-svg", given_->wish.qr_svg, "Write the QR code as an SVG picture that only you can read")
+        ->type_name("FILE");
   }
   void address(CLI::App* command) {
     command->add_option("--address", given_->wish.address,
@@ -124,7 +122,6 @@ class PairCommands {
 void add_pair(CLI::App& app, ExitCode& result) {
   CLI::App* pair = app.add_subcommand("pair", "Make a parent's PC and a wearer's PC known to each other");
   pair->require_subcommand(1);
-  pair->footer(examples);
   PairCommands commands(*pair, result);
 
   CLI::App* invite = commands.add("invite", "Print a code and wait for the other PC", pair_invite);
@@ -151,6 +148,7 @@ void add_pair(CLI::App& app, ExitCode& result) {
   commands.file(grant, "Where to read the request (default: stdin)");
   commands.file(finish, "Where to read the grant or the renewal (default: stdin)");
   commands.file(renew, "Where to write the renewal (default: stdout)");
+  pair->footer(ways);  // after its commands, which would take it over
 }
 
 }  // namespace telehug

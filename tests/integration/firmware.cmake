@@ -16,5 +16,5 @@ telehug_test(test_jacket_flash KIND integration SUBJECT jacket
   SOURCES integration/ctl/jacket_flash_test.cpp integration/ctl/simulated_board.cpp
   DEPS passive_link telehug_service jacket_simulator ${SIMAVR_LIBRARY})
 target_include_directories(test_jacket_flash SYSTEM PRIVATE ${SIMAVR_INCLUDE_DIR})
-target_compile_definitions(test_jacket_flash PRIVATE TELEHUG_FIRMWARE_FOLDER="${CMAKE_BINARY_DIR}/firmware")
+target_compile_definitions(test_jacket_flash PRIVATE TELEHUG_FIRMWARE_FOLDER="${TELEHUG_BUILT_DATA}/firmware")
 add_dependencies(test_jacket_flash telehug telehug_jacket_firmware)

@@ -10,9 +10,14 @@
 #include <algorithm>
 #include <csignal>
 #include <cstdio>
+#include <filesystem>
 #include <memory>
+#include <string>
+#include <vector>
 
+#include "cli/program.hpp"
 #include "common/clock.hpp"
+#include "common/data_folder.hpp"
 #include "simulator/heater_faults.hpp"
 #include "simulator/pin_activity.hpp"
 #include "simulator/pty_bridge.hpp"
@@ -41,22 +46,20 @@ File open_log(const std::string& path) {
   return file;
 }
 
-const BoardWiring& board_of(const Options& options) {
-  if (const BoardWiring* const board = find_board(options.board)) return *board;
-  std::string known;
+std::vector<std::string> board_names() {
+  std::vector<std::string> names;
   for (const BoardWiring& board : board_wirings())
-    known += fmt::format("{}{}", known.empty() ? "" : ", ", board.name);
-  throw std::runtime_error(fmt::format("there is no board {}: choose one of {}", options.board, known));
+    names.emplace_back(board.name);
+  return names;
+}
+
+const BoardWiring& board_of(const Options& options) {
+  return *find_board(options.board);  // the command line takes no other
 }
 
 std::filesystem::path firmware_of(const Options& options) {
   if (!options.firmware.empty()) return options.firmware;
-  const std::string_view elf = board_of(options).elf;
-  std::error_code ignored;
-  const auto program = std::filesystem::read_symlink("/proc/self/exe", ignored);
-  auto built = program.parent_path().parent_path() / "firmware" / elf;
-  if (std::filesystem::exists(built, ignored)) return built;
-  return std::filesystem::path(TELEHUG_INSTALLED_FIRMWARE) / elf;
+  return data_folder() / "firmware" / board_of(options).elf;
 }
 
 // SIGTERM and SIGINT end the program, SIGUSR1 cuts the firmware's input or joins it again.
@@ -192,35 +195,52 @@ class Simulator {
   bool ended_ = false;
 };
 
+const Program program{
+    .name = "telehug-jacket-sim",
+    .purpose =
+        "The telehug jacket without a jacket: its firmware, simulated, behind a pseudo terminal.\n"
+        "SIGUSR1 cuts the firmware's input, and joins it again.",
+    .examples = {{"telehug-jacket-sim --link /tmp/jacket",
+                  "for `telehug-passive run --set jacket.link=serial:/tmp/jacket`"},
+                 {"telehug-jacket-sim --pins pins.csv", "notes when each motor starts and ends"},
+                 {"telehug-jacket-sim --board motors12_heaters2 --heater-fault 0:open@5",
+                  "after five seconds the first heater's thermistor is cut"}},
+    .exits = {ExitCode::ok, ExitCode::internal, ExitCode::usage},
+    .see_also = {"telehug-passive(1)", "telehug(7)"},
+};
+
+void add_options(CLI::App& app, Options& options) {
+  app.add_option("--board", options.board, "What the jacket has")
+      ->check(CLI::IsMember(board_names()))
+      ->capture_default_str();
+  app.add_option("--firmware", options.firmware,
+                 "ELF file of the firmware (default: the one of the board, built or installed with this)")
+      ->type_name("FILE");
+  app.add_option("--link", options.link, "Make this path a symbolic link to the terminal")->type_name("FILE");
+  app.add_option("--pins", options.pins,
+                 "Write here: monotonic_ns,cycle,channel,on|off for each motor that starts or ends; "
+                 "channels 16 and 17 are the heaters")
+      ->type_name("FILE");
+  app.add_option("--edges", options.edges,
+                 "Write here: monotonic_ns,cycle,channel,high|low for each edge of a motor's or heater's pin")
+      ->type_name("FILE");
+  app.add_option("--supply", options.supply_mv, "Of the microcontroller, in mV")
+      ->check(CLI::Range(1800, 5500))
+      ->type_name("MV")
+      ->capture_default_str();
+  app.add_option("--heater-fault", options.heater_faults,
+                 "HEATER:open|short|detached|runaway|overvoltage[@SECONDS]; may be given several times")
+      ->type_name("FAULT");
+  app.add_flag("--die-with-parent", options.die_with_parent, "End when the program that started this one has ended");
+}
+
 }  // namespace
 }  // namespace telehug
 
 int main(int argc, char** argv) {
-  try {
-    telehug::Options options;
-    CLI::App app{
-        "The telehug jacket without a jacket: its firmware, simulated, behind a pseudo terminal.\n"
-        "SIGUSR1 cuts the firmware's input, and joins it again."};
-    app.add_option("--board", options.board, "motors16, motors12_heaters2 or legacy")->capture_default_str();
-    app.add_option("--firmware", options.firmware,
-                   "ELF file of the firmware (default: the one of the board, built or installed with this)");
-    app.add_option("--link", options.link, "make this path a symbolic link to the terminal");
-    app.add_option("--pins", options.pins,
-                   "write here: monotonic_ns,cycle,channel,on|off for each motor that starts or ends; "
-                   "channels 16 and 17 are the heaters");
-    app.add_option("--edges", options.edges,
-                   "write here: monotonic_ns,cycle,channel,high|low for each edge of a motor's or heater's pin");
-    app.add_option("--supply", options.supply_mv, "of the microcontroller, in mV")
-        ->check(CLI::Range(1800, 5500))
-        ->capture_default_str();
-    app.add_option("--heater-fault", options.heater_faults,
-                   "HEATER:open|short|detached|runaway|overvoltage[@SECONDS]; may be given several times");
-    app.add_flag("--die-with-parent", options.die_with_parent, "end when the program that started this one has ended");
-    CLI11_PARSE(app, argc, argv);
-    telehug::Simulator(options).run();
-    return 0;
-  } catch (const std::exception& problem) {
-    std::fprintf(stderr, "telehug-jacket-sim: %s\n", problem.what());
-    return 1;
-  }
+  telehug::Options options;
+  return telehug::run_program(argc, argv, telehug::program, [&](CLI::App& app, telehug::ExitCode&) {
+    telehug::add_options(app, options);
+    app.callback([&] { telehug::Simulator(options).run(); });
+  });
 }

@@ -266,6 +266,34 @@ TEST_F(TelehugCommand, GivesALinkToTheBrowserOrToThePersonIfThereIsNone) {
   EXPECT_THAT(failed.errors, HasSubstr("open this link within a minute: http://127.0.0.1:4000/enter?link=passive"));
 }
 
+TEST_F(TelehugCommand, StartsTheParentsSideToOpenItsPageIfToldSoAndNothingRuns) {
+  const std::string systemctl = folder_.write(
+      "systemctl",
+      "#!/bin/sh\necho \"$*\" >> \"$0.called\"\ncd \"$XDG_RUNTIME_DIR/telehug\" && mv ready active.sock\n");
+  std::filesystem::permissions(systemctl, std::filesystem::perms::owner_all);
+  const std::string path = "env PATH=" + folder_.path().string() + ":/usr/bin:/bin";
+  ControlServer server({.socket = runtime_ / "telehug/ready", .group = {}});
+  server.on("open", [](const Json&) { return Json{{"url", "http://127.0.0.1:4000/enter?link=started"}}; });
+  server.start();
+
+  EXPECT_EQ(run("open --print", path).code, to_int(ExitCode::not_running));
+  EXPECT_FALSE(std::filesystem::exists(systemctl + ".called"));
+
+  EXPECT_EQ(run("open --start --print", path).out, "http://127.0.0.1:4000/enter?link=started\n");
+  EXPECT_EQ(content(systemctl + ".called"), "--user start telehug-active.service\n");
+  EXPECT_EQ(run("open --start --print", path).out, "http://127.0.0.1:4000/enter?link=started\n");
+  EXPECT_EQ(content(systemctl + ".called"), "--user start telehug-active.service\n") << "it ran already";
+}
+
+TEST_F(TelehugCommand, TellsWhyTheParentsSideCantBeStarted) {
+  const std::string systemctl =
+      folder_.write("systemctl", "#!/bin/sh\necho Unit telehug-active.service not found. >&2\nexit 5\n");
+  std::filesystem::permissions(systemctl, std::filesystem::perms::owner_all);
+  const Outcome outcome = run("open --start", "env PATH=" + folder_.path().string() + ":/usr/bin:/bin");
+  EXPECT_EQ(outcome.code, to_int(ExitCode::not_running));
+  EXPECT_THAT(outcome.errors, HasSubstr("telehug-active can't be started: Unit telehug-active.service not found."));
+}
+
 TEST_F(TelehugCommand, OpensNothingButAPageOfThisPc) {
   for (const Json& url : {Json("file:///etc/passwd"), Json("--version"), Json("http://evil.example/"),
                           Json("http://127.0.0.1:1/ --x"), Json(5), Json()}) {

@@ -38,6 +38,7 @@ TEST(JacketProfileFile, IsAsConfiguredElseTheInstalledOne) {
   JacketConfig config;
   EXPECT_TRUE(jacket_profile_file(config).is_absolute());
   EXPECT_EQ(jacket_profile_file(config).filename(), "duemilanove-16.toml");
+  EXPECT_TRUE(std::filesystem::exists(jacket_profile_file(config))) << "the build tree has it, too";
   config.profile = "/a/b.toml";
   EXPECT_EQ(jacket_profile_file(config), "/a/b.toml");
   config.profile = "no-such-profile.toml";
