@@ -63,7 +63,7 @@ ExitCode run(const Options& options) {
   const SteadyClock clock;
   try {
     PassiveDaemon daemon(*config, *std::move(found), *std::move(profile), *std::move(link), clock);
-    return daemon.run(signals);
+    return daemon.run(signals, ConfigReload<PassiveConfig>([&sources] { return load_passive_config(sources); }));
   } catch (const AlreadyRunning& running) {
     return fail(ExitCode::already_running, running.what());
   } catch (const LineMissing& missing) {
@@ -77,7 +77,7 @@ ExitCode run(const Options& options) {
 ExitCode check_jackets(const std::vector<std::string>& files, const std::string& overrides) {
   ExitCode result = ExitCode::ok;
   for (const std::string& file : files) {
-    auto profile = load_jacket_profile(file);
+    auto profile = load_jacket_profile(installed_jacket_file(file));
     if (profile && !overrides.empty()) profile = with_overrides(*std::move(profile), overrides);
     if (!profile) {
       result = fail(ExitCode::config, profile.error().message);
@@ -105,9 +105,7 @@ void add_check_jacket(CLI::App& app, ExitCode& result) {
   auto files = std::make_shared<std::vector<std::string>>();
   auto overrides = std::make_shared<std::string>();
   CLI::App* check = app.add_subcommand("check-jacket", "Are these jacket profiles right? Lists all their faults");
-  check->add_option("files", *files, "Profiles (TOML; deploy/jackets/README.md explains them)")
-      ->required()
-      ->type_name("FILE");
+  check->add_option("files", *files, "Profiles (TOML), or names of installed ones")->required()->type_name("FILE");
   check->add_option("--overrides", *overrides, "The wearer's own limits to them")->type_name("FILE");
   check->callback([files, overrides, &result] { result = check_jackets(*files, *overrides); });
 }

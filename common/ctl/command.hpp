@@ -18,6 +18,7 @@ void add_stop(CLI::App& app, ExitCode& result);
 void add_resume(CLI::App& app, ExitCode& result);
 void add_pause(CLI::App& app, ExitCode& result);
 void add_unpause(CLI::App& app, ExitCode& result);
+void add_metrics(CLI::App& app, ExitCode& result);
 void add_mute(CLI::App& app, ExitCode& result);
 void add_unmute(CLI::App& app, ExitCode& result);
 void add_strength(CLI::App& app, ExitCode& result);

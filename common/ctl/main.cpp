@@ -17,6 +17,7 @@ const telehug::Program program{
              "for scripts: what is not as it should be, as exit code"},
             {"telehug watch", "touches and answers as they happen"},
             {"telehug watch --json --count 1", "waits for the next event"},
+            {"telehug metrics --side passive", "counters and latencies for a scraper (OpenMetrics)"},
             {"telehug open", "this side's pages in the browser"},
             {"telehug open --start", "what the desktop's entry does: also starts the parent's side"},
             {"telehug open passive --print", "only the link"},
@@ -68,6 +69,7 @@ const telehug::Program program{
 void add_commands(CLI::App& app, ExitCode& result) {
   telehug::add_status(app, result);
   telehug::add_watch(app, result);
+  telehug::add_metrics(app, result);
   telehug::add_stop(app, result);
   telehug::add_resume(app, result);
   telehug::add_pause(app, result);

@@ -8,9 +8,9 @@
 
 #include "config/places.hpp"
 #include "ctl/command.hpp"
-#include "ctl/folder_owner.hpp"
 #include "ctl/pair_side.hpp"
 #include "ctl/pairing_steps.hpp"
+#include "files/folder_owner.hpp"
 #include "pairing/wireguard.hpp"
 
 namespace telehug {
@@ -76,11 +76,7 @@ class PairCommands {
         }
         wish.wireguard = *endpoint;
       }
-      if (const Status owned = become_owner_of(wish.folder); !owned) {
-        (void)std::fprintf(stderr, "telehug: %s\n", owned.error().message.c_str());
-        result = ExitCode::refused;
-        return;
-      }
+      const AsOwnerOf owner(wish.folder);
       result = step(wish);
     });
     return command;

@@ -11,6 +11,7 @@
 
 #include "ctl/own_address.hpp"
 #include "ctl/plain_text.hpp"
+#include "files/folder_owner.hpp"
 #include "files/private_file.hpp"
 #include "network/ways_in.hpp"
 #include "pairing/pairing.hpp"
@@ -151,6 +152,7 @@ class Pairing {
 };
 
 Result<std::string> read_text(const std::filesystem::path& file) {
+  const AsCaller caller;
   std::ifstream opened;
   if (!file.empty()) opened.open(file, std::ios::binary);
   std::istream& from = file.empty() ? std::cin : opened;
@@ -168,6 +170,7 @@ ExitCode hand_over(const std::string& text, const std::filesystem::path& file) {
     fmt::print("{}\n", text);
     return ExitCode::ok;
   }
+  const AsCaller caller;
   std::ofstream out(file, std::ios::binary | std::ios::trunc);
   out << text << '\n' << std::flush;
   return out ? ExitCode::ok : fail(ExitCode::refused, fmt::format("{} can't be written", file.string()));
@@ -202,6 +205,7 @@ ExitCode pair_invite(const PairingWish& wish) {
   if (!wish.qr_svg.empty()) {
     const std::string svg = to_svg(qr);
     const auto* bytes = reinterpret_cast<const std::uint8_t*>(svg.data());
+    const AsCaller caller;
     if (const Status written = write_private_file(wish.qr_svg, {bytes, svg.size()}); !written)
       return fail(ExitCode::refused, written.error().message);
   }

@@ -199,10 +199,9 @@ JacketProfile read_profile(const toml::table& root, TomlFaults& faults) {
 Result<JacketProfile> load_jacket_profile(const std::filesystem::path& path) {
   TomlFaults faults(path.string());
   JacketProfile profile;
-  const auto error = read_toml(
-      path,
-      "there is no such jacket profile; name one, such as --set jacket.profile=deploy/jackets/duemilanove-16.toml",
-      [&](const toml::table& root) { profile = read_profile(root, faults); });
+  const auto error =
+      read_toml(path, "there is no such jacket profile; name one, such as --set jacket.profile=duemilanove-16.toml",
+                [&](const toml::table& root) { profile = read_profile(root, faults); });
   if (error) return *error;
   if (!faults.none()) return faults.error();
   return profile;

@@ -35,3 +35,7 @@ telehug_test(test_doctor KIND integration SUBJECT ops
   SOURCES integration/ctl/doctor_test.cpp
   DEPS telehug_exit_codes nlohmann_json::nlohmann_json)
 add_dependencies(test_doctor telehug)
+
+add_test(NAME test_packages COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/integration/deploy/packages_test.sh
+  ${PROJECT_SOURCE_DIR} ${CMAKE_BINARY_DIR})
+set_tests_properties(test_packages PROPERTIES LABELS "integration;ops" TIMEOUT 600)

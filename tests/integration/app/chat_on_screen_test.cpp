@@ -4,14 +4,12 @@
 // meant for the person in that window, and whatever happens to the screen is told and mended by itself.
 #include <gtest/gtest.h>
 
-#include <atomic>
 #include <cstdlib>
 #include <opencv2/imgproc.hpp>
-#include <thread>
 
-#include "doubles/x11_client.hpp"
 #include "doubles/x11_typist.hpp"
 #include "doubles/xvfb.hpp"
+#include "integration/app/chat_window.hpp"
 #include "integration/app/running_pair.hpp"
 #include "pictures/picture_file.hpp"
 
@@ -19,50 +17,6 @@ namespace telehug {
 namespace {
 
 const cv::Rect screen_px(0, 0, 1920, 1080);
-
-// As high as the screen, between black bars.
-cv::Mat chat_picture() {
-  const auto picture = read_picture(TELEHUG_FIXTURES "/chat/01_full.jpg");
-  if (!picture) throw std::runtime_error(picture.error().message);
-  const int width = picture->cols * screen_px.height / picture->rows;
-  cv::Mat screen(screen_px.size(), CV_8UC3, cv::Scalar::all(0));
-  cv::resize(*picture, screen({(screen_px.width - width) / 2, 0, width, screen_px.height}), {width, screen_px.height});
-  cv::Mat bgrx;
-  cv::cvtColor(screen, bgrx, cv::COLOR_BGR2BGRA);
-  return bgrx;
-}
-
-// A window as large as the screen in which somebody moves a little all the time.
-class Chat {
- public:
-  explicit Chat(const std::string& display) : client_(display) {
-    X11WindowPlan plan;
-    plan.place_px = screen_px;
-    plan.title = "Video chat with Ada";
-    window_ = client_.open(plan);
-    thread_ = std::thread([this] { talk(); });
-  }
-  ~Chat() {
-    ending_ = true;
-    thread_.join();
-  }
-
-  [[nodiscard]] xcb_window_t window() const { return window_; }
-
- private:
-  void talk() {
-    const cv::Mat still = chat_picture();
-    for (int shade = 0; !ending_; shade = (shade + 7) % 21) {
-      client_.draw(window_, {0, 0}, still + cv::Scalar::all(shade));
-      std::this_thread::sleep_for(100ms);
-    }
-  }
-
-  X11Client client_;
-  xcb_window_t window_ = 0;
-  std::atomic<bool> ending_ = false;
-  std::thread thread_;
-};
 
 // For the README: TELEHUG_SCREENSHOT=docs/overlay.png test_app_chat_on_screen
 void save_screenshot(X11Client& onlooker) {
@@ -112,7 +66,7 @@ class ChatOnScreen : public testing::Test {
 
 TEST_F(ChatOnScreen, IsFeltOnlyWhileThePinnedWindowIsInFront) {
   X11Client others(xvfb.display());
-  const Chat chat(xvfb.display());
+  const ChatWindow chat(xvfb.display(), screen_px);
   pin_the_chat();
   start_all();
   ASSERT_TRUE(becomes_felt()) << pair.logs();
@@ -128,7 +82,7 @@ TEST_F(ChatOnScreen, IsFeltOnlyWhileThePinnedWindowIsInFront) {
 }
 
 TEST_F(ChatOnScreen, IsNotFeltFromAScreenWithoutAPinnedWindowUntilSendingIsSwitchedOn) {
-  const Chat chat(xvfb.display());
+  const ChatWindow chat(xvfb.display(), screen_px);
   start_all();
   ASSERT_TRUE(eventually([&] { return pair.counter(Side::active, "touches_withheld") > 0; })) << pair.logs();
   EXPECT_TRUE(is_withheld_because("no window is pinned"));
@@ -147,7 +101,7 @@ TEST_F(ChatOnScreen, IsNotFeltFromAScreenWithoutAPinnedWindowUntilSendingIsSwitc
 }
 
 TEST_F(ChatOnScreen, IsLookedForInTheRegionOnly) {
-  const Chat chat(xvfb.display());
+  const ChatWindow chat(xvfb.display(), screen_px);
   pin_the_chat();
   pair.active_settings.emplace_back("body_map.region=0,0,480,1080");
   start_all();
@@ -157,7 +111,7 @@ TEST_F(ChatOnScreen, IsLookedForInTheRegionOnly) {
 
 TEST_F(ChatOnScreen, IsFeltAgainWhenTheWindowIsBack) {
   X11Client others(xvfb.display());
-  const Chat chat(xvfb.display());
+  const ChatWindow chat(xvfb.display(), screen_px);
   pin_the_chat();
   start_all();
   ASSERT_TRUE(becomes_felt()) << pair.logs();
@@ -169,7 +123,7 @@ TEST_F(ChatOnScreen, IsFeltAgainWhenTheWindowIsBack) {
 }
 
 TEST_F(ChatOnScreen, IsFeltAgainWhenTheXServerIsBack) {
-  auto chat = std::make_unique<Chat>(xvfb.display());
+  auto chat = std::make_unique<ChatWindow>(xvfb.display(), screen_px);
   pin_the_chat();
   start_all();
   ASSERT_TRUE(becomes_felt()) << pair.logs();
@@ -178,7 +132,7 @@ TEST_F(ChatOnScreen, IsFeltAgainWhenTheXServerIsBack) {
   xvfb.stop();
   EXPECT_TRUE(eventually([&] { return !pair.felt() && pair.complains(Side::active, xvfb.display()); })) << pair.logs();
   xvfb.start();
-  chat = std::make_unique<Chat>(xvfb.display());
+  chat = std::make_unique<ChatWindow>(xvfb.display(), screen_px);
   EXPECT_TRUE(becomes_felt()) << pair.logs();
 }
 
@@ -191,7 +145,7 @@ TEST_F(ChatOnScreen, IsToldWhenThereIsNoDisplay) {
 
 TEST_F(ChatOnScreen, OutlinesTheTouchedBoxOnceItIsFeltAndIsNoWindowInFrontItself) {
   X11Client onlooker(xvfb.display());
-  const Chat chat(xvfb.display());
+  const ChatWindow chat(xvfb.display(), screen_px);
   pin_the_chat();
   pair.active_settings.emplace_back("overlay.show=true");
   start_all();
@@ -209,7 +163,7 @@ TEST_F(ChatOnScreen, OutlinesTheTouchedBoxOnceItIsFeltAndIsNoWindowInFrontItself
 
 TEST_F(ChatOnScreen, OutlinesThePersonForAMomentWhenTheyHugBack) {
   X11Client onlooker(xvfb.display());
-  const Chat chat(xvfb.display());
+  const ChatWindow chat(xvfb.display(), screen_px);
   pin_the_chat();
   pair.active_settings.insert(pair.active_settings.end(), {"overlay.show=true", "hug.notify=false"});
   start_all();
@@ -224,7 +178,7 @@ TEST_F(ChatOnScreen, OutlinesThePersonForAMomentWhenTheyHugBack) {
 
 TEST_F(ChatOnScreen, IsSwitchedOffAndOnByTheHotkey) {
   X11Typist typist(xvfb.display());
-  const Chat chat(xvfb.display());
+  const ChatWindow chat(xvfb.display(), screen_px);
   pin_the_chat();
   pair.active_settings.emplace_back("sending.hotkey=Ctrl+Alt+h");
   start_all();
@@ -262,7 +216,7 @@ TEST_F(ChatOnScreen, RefusesOrdersThatMeanNothingAndChangesNothing) {
 }
 
 TEST_F(ChatOnScreen, FollowsTheFaceThatAPersonChooses) {
-  const Chat chat(xvfb.display());
+  const ChatWindow chat(xvfb.display(), screen_px);
   pin_the_chat();
   start_all();
   ASSERT_TRUE(becomes_felt()) << pair.logs();
