@@ -8,7 +8,7 @@ if(time STREQUAL "")
 endif()
 string(TIMESTAMP date "%a, %d %b %Y %H:%M:%S +0000" UTC)  # of SOURCE_DATE_EPOCH
 
-foreach(part common active passive)
+foreach(part IN LISTS CPACK_COMPONENTS_ALL)
   set(tree ${CPACK_TEMPORARY_DIRECTORY}/${part})
   # What people edit.
   if(NOT part STREQUAL common)
