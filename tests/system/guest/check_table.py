@@ -31,7 +31,8 @@ def within(seconds, what, condition):
 
 
 class Table:
-    def __init__(self):
+    def __init__(self, tell=lambda line: print(line, flush=True)):
+        self.tell = tell
         self.failed = 0
 
     def check(self, name, function):
@@ -45,7 +46,7 @@ class Table:
         except Exception:  # the other checks are still worth their figures
             result, told = "FAILED", traceback.format_exc(limit=-2).strip().replace("\n", " | ")
         self.failed += result != "ok"
-        print(f"{result:6} {time.monotonic() - start:7.2f} s  {name}{': ' if told else ''}{told}", flush=True)
+        self.tell(f"{result:6} {time.monotonic() - start:7.2f} s  {name}{': ' if told else ''}{told}")
 
     def end(self):
         sys.exit(1 if self.failed else 0)

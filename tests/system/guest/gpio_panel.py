@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The jacket's stop button and light on lines of the kernel's gpio-sim."""
+"""The jacket's stop button, light and power line on lines of the kernel's gpio-sim."""
 import os
 import time
 
@@ -18,12 +18,10 @@ class GpioPanel:
     label = "panel"
     stop_line = 2
     light_line = 3
+    power_line = 4
 
     def __init__(self):
         run("modprobe", "gpio-sim")
-        with open("/etc/udev/rules.d/70-telehug-guest.rules", "w", encoding="ascii") as file:
-            file.write('SUBSYSTEM=="gpio", KERNEL=="gpiochip*", GROUP="dialout", MODE="0660"\n')
-        run("udevadm", "control", "--reload")
         os.makedirs(CHIP + "/bank0")
         write(CHIP + "/bank0/num_lines", "8")
         write(CHIP + "/bank0/label", self.label)
@@ -35,12 +33,17 @@ class GpioPanel:
         """A normally closed button to ground: open, and so high, when it is pressed."""
         write(f"{self.folder}/sim_gpio{self.stop_line}/pull", "pull-up" if pressed else "pull-down")
 
+    def level(self, line):
+        return read(f"{self.folder}/sim_gpio{line}/value")
+
+    def power_is_on(self):
+        return self.level(self.power_line) == "1"
+
     def light_has_changed(self):
-        level = f"{self.folder}/sim_gpio{self.light_line}/value"
-        first = read(level)
+        first = self.level(self.light_line)
         end = time.monotonic() + 1
         while time.monotonic() < end:
-            if read(level) != first:
+            if self.level(self.light_line) != first:
                 return True
             time.sleep(0.01)
         return False

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The simulated jacket behind a USB serial port of the kernel: a CDC-ACM gadget on dummy_hcd, with hot plug."""
+"""The simulated jacket, and a USB serial port of the kernel for it: a CDC-ACM gadget on dummy_hcd, with hot plug.
+Both are units, so that they outlive the script that starts them."""
 import os
-import subprocess
 
 from check_table import run, within
 
@@ -16,57 +16,62 @@ def write(path, text):
         file.write(text + "\n")
 
 
-class UsbJacket:
-    def __init__(self):
-        run("modprobe", "-a", "libcomposite", "dummy_hcd", "usb_f_acm", "cdc_acm")
-        for folder in ("", "/strings/0x409", "/configs/c.1/strings/0x409", "/functions/acm.0"):
-            os.makedirs(GADGET + folder, exist_ok=True)
-        write(GADGET + "/idVendor", "0x2341")
-        write(GADGET + "/idProduct", "0x0043")
-        write(GADGET + "/strings/0x409/manufacturer", "Telehug")
-        write(GADGET + "/strings/0x409/product", "Test jacket")
-        write(GADGET + "/strings/0x409/serialnumber", "TH0001")
-        os.symlink(GADGET + "/functions/acm.0", GADGET + "/configs/c.1/acm.0")
-        self.simulator = subprocess.Popen(["telehug-jacket-sim", "--link", TERMINAL, "--pins", PINS],
-                                          stdout=subprocess.DEVNULL)
-        within(10, "the simulator's terminal", lambda: os.path.exists(TERMINAL))
-        self.bridge = None
-        self.plug()
+def start_unit(name, *command):
+    run("systemd-run", "--quiet", "--collect", f"--unit={name}", *command)
 
-    def plug(self):
-        write(GADGET + "/UDC", "dummy_udc.0")
-        within(10, BY_ID, lambda: os.path.exists(BY_ID))
-        # The device's end of the line is closed by each unplug.
-        self.bridge = subprocess.Popen(["socat", "/dev/ttyGS0,raw,echo=0,clocal=1", TERMINAL + ",raw,echo=0"],
-                                       stderr=subprocess.DEVNULL)
-        return os.path.realpath(BY_ID)
 
-    def unplug(self):
-        write(GADGET + "/UDC", "")
-        within(10, "the port is gone", lambda: not os.path.exists(BY_ID))
-        self.bridge.terminate()
-        self.bridge.wait()
+def stop_unit(name):
+    """It may have ended by itself."""
+    run("systemctl", "stop", name, fails=True)
 
-    def end(self):
-        for child in (self.bridge, self.simulator):
-            if child is not None and child.poll() is None:
-                child.terminate()
-                child.wait()
 
-    @staticmethod
-    def lines():
-        with open(PINS, encoding="ascii") as file:
-            return [line.strip().split(",") for line in file if line.endswith("\n")]
+def start_simulator():
+    start_unit("jacket-simulator", "telehug-jacket-sim", "--link", TERMINAL, "--pins", PINS)
+    within(10, "the simulator's terminal", lambda: os.path.exists(TERMINAL))
 
-    def channel_ran(self, channel, since):
-        """Turned on and off again after so many lines of the log? None as long as not, else its seconds."""
-        mine = [line for line in self.lines()[since:] if int(line[2]) == channel]
-        if len(mine) < 2 or mine[0][3] != "on" or mine[-1][3] != "off":
-            return None
-        return (int(mine[-1][0]) - int(mine[0][0])) / 1e9
 
-    def all_off(self):
-        last = {}
-        for line in self.lines():
-            last[line[2]] = line[3]
-        return "on" not in last.values()
+def make_port():
+    run("modprobe", "-a", "libcomposite", "dummy_hcd", "usb_f_acm", "cdc_acm")
+    for folder in ("", "/strings/0x409", "/configs/c.1/strings/0x409", "/functions/acm.0"):
+        os.makedirs(GADGET + folder, exist_ok=True)
+    write(GADGET + "/idVendor", "0x2341")
+    write(GADGET + "/idProduct", "0x0043")
+    write(GADGET + "/strings/0x409/manufacturer", "Telehug")
+    write(GADGET + "/strings/0x409/product", "Test jacket")
+    write(GADGET + "/strings/0x409/serialnumber", "TH0001")
+    os.symlink(GADGET + "/functions/acm.0", GADGET + "/configs/c.1/acm.0")
+
+
+def plug():
+    write(GADGET + "/UDC", "dummy_udc.0")
+    within(10, BY_ID, lambda: os.path.exists(BY_ID))
+    # The device's end of the line is closed by each unplug.
+    start_unit("jacket-usb", "socat", "/dev/ttyGS0,noctty,raw,echo=0,clocal=1", TERMINAL + ",noctty,raw,echo=0")
+    return os.path.realpath(BY_ID)
+
+
+def unplug():
+    write(GADGET + "/UDC", "")
+    within(10, "the port is gone", lambda: not os.path.exists(BY_ID))
+    stop_unit("jacket-usb")
+
+
+def pins():
+    """Each turning on or off of a motor: nanoseconds, cycle, channel, on or off."""
+    with open(PINS, encoding="ascii") as file:
+        return [line.strip().split(",") for line in file if line.endswith("\n")]
+
+
+def channel_ran(channel, since):
+    """Turned on and off again after so many lines of the log? None as long as not, else its seconds."""
+    mine = [line for line in pins()[since:] if int(line[2]) == channel]
+    if len(mine) < 2 or mine[0][3] != "on" or mine[-1][3] != "off":
+        return None
+    return (int(mine[-1][0]) - int(mine[0][0])) / 1e9
+
+
+def all_off():
+    last = {}
+    for line in pins():
+        last[line[2]] = line[3]
+    return "on" not in last.values()
