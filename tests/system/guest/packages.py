@@ -11,7 +11,7 @@ def version_of(package):
     return run("dpkg-query", "-W", "-f", "${Version}", package).strip()
 
 
-def apt(*words, limit_s=400):
+def apt(*words, limit_s=900):
     done = subprocess.run(["apt-get", "-q", "-y", "--no-install-recommends", *words], capture_output=True, text=True, check=False,
                           timeout=limit_s, stdin=subprocess.DEVNULL, env={**os.environ, "DEBIAN_FRONTEND": "noninteractive"})
     if done.returncode != 0:
