@@ -6,8 +6,10 @@
 #include <unistd.h>
 
 #include <fstream>
+#include <mutex>
 #include <utility>
 
+#include "dds/library_log.hpp"
 #include "service/log.hpp"
 
 namespace telehug {
@@ -30,6 +32,13 @@ std::optional<AddressWatcher>& watch(std::optional<AddressWatcher>& watcher, boo
   return watcher;
 }
 
+// Several connections share one Fast DDS.
+void take_over_library_log() {
+  static std::once_flag done;
+  std::call_once(done, tell_library_log,
+                 [](const std::string& text) { log_about({.stage = "link"}, spdlog::level::warn, text); });
+}
+
 }  // namespace
 
 LinkKeeper::LinkKeeper(DdsSettings settings, const Clock& clock)
@@ -39,6 +48,7 @@ LinkKeeper::LinkKeeper(DdsSettings settings, const Clock& clock)
       supervisor_(!watch(addresses_, settings_.loopback_only) || !addresses_->addresses().empty()),
       participant_(std::in_place, settings_),
       told_({{"replaced", 0}, {"last_reason", ""}}) {
+  take_over_library_log();
   supervisor_.made(LinkCause::first, clock_.now());
 }
 

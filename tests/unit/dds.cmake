@@ -25,7 +25,7 @@ telehug_test(test_subscribe KIND unit SUBJECT link
   DEPS passive_subscribe active_publish)
 
 telehug_test(test_dds KIND unit SUBJECT link
-  SOURCES unit/dds/malformed_payload_test.cpp unit/dds/message_filter_test.cpp unit/dds/strangers_test.cpp unit/dds/validate_test.cpp unit/dds/wire_test.cpp
+  SOURCES unit/dds/library_log_test.cpp unit/dds/malformed_payload_test.cpp unit/dds/message_filter_test.cpp unit/dds/strangers_test.cpp unit/dds/validate_test.cpp unit/dds/wire_test.cpp
   DEPS telehug_dds telehug_idl
   USES_FASTDDS)
 
