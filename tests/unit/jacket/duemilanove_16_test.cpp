@@ -20,9 +20,9 @@ namespace {
 using ::testing::ElementsAre;
 using ::testing::IsEmpty;
 
-constexpr int full = 197;  // step 24 of 31: the last within 0.8
+constexpr int full = 148;  // step 18 of 31: the last within 0.6
 constexpr Duration started = 40ms;
-constexpr int least = 90;  // step 11 of 31: the first from 0.35 on
+constexpr int least = 66;  // step 8 of 31: the first from 0.25 on
 
 JacketProfile shipped() {
   auto profile = load_jacket_profile(TELEHUG_SOURCE "/deploy/jackets/duemilanove-16.toml");
@@ -59,13 +59,13 @@ std::string commands_for(const Contact& contact, Duration after = {}, Rendering 
 
 TEST(Duemilanove16, drives_exactly_the_motors_of_each_box) {
   const std::map<int, std::string> golden{
-      {1, "0=197 200ms"},   {2, "1=197 200ms"},   {3, "1=197 200ms, 2=197 200ms"},
-      {4, "2=197 200ms"},   {5, "3=197 200ms"},   {6, "4=197 200ms"},
-      {7, "5=197 200ms"},   {8, "6=197 200ms"},   {9, "7=197 200ms"},
-      {10, "8=197 200ms"},  {11, "9=197 200ms"},  {12, "10=197 200ms"},
-      {13, "11=197 200ms"}, {14, "12=197 200ms"}, {15, "13=197 200ms"},
-      {16, "9=197 200ms"},  {17, "14=197 200ms"}, {18, "14=197 200ms, 15=197 200ms"},
-      {19, "15=197 200ms"}, {20, "13=197 200ms"},
+      {1, "0=148 200ms"},   {2, "1=148 200ms"},   {3, "1=148 200ms, 2=148 200ms"},
+      {4, "2=148 200ms"},   {5, "3=148 200ms"},   {6, "4=148 200ms"},
+      {7, "5=148 200ms"},   {8, "6=148 200ms"},   {9, "7=148 200ms"},
+      {10, "8=148 200ms"},  {11, "9=148 200ms"},  {12, "10=148 200ms"},
+      {13, "11=148 200ms"}, {14, "12=148 200ms"}, {15, "13=148 200ms"},
+      {16, "9=148 200ms"},  {17, "14=148 200ms"}, {18, "14=148 200ms, 15=148 200ms"},
+      {19, "15=148 200ms"}, {20, "13=148 200ms"},
   };
   for (const auto& [box, commands] : golden)
     EXPECT_EQ(commands_for(contact_in(box)), commands) << "box " << box;
@@ -73,26 +73,26 @@ TEST(Duemilanove16, drives_exactly_the_motors_of_each_box) {
 
 TEST(Duemilanove16, drives_by_places_the_motors_about_the_middle_of_each_box) {
   const std::map<int, std::string> golden{
-      {1, "0=197 200ms"},
-      {2, "0=123 160ms, 1=189 160ms"},
-      {3, "1=165 160ms, 2=165 160ms"},
-      {4, "2=189 160ms, 3=123 160ms"},
-      {5, "3=197 200ms"},
-      {6, "0=123 160ms, 4=189 160ms"},
-      {7, "5=197 200ms"},
-      {8, "6=197 200ms"},
-      {9, "7=197 200ms"},
-      {10, "3=123 160ms, 8=189 160ms"},
-      {11, "9=197 200ms"},
-      {12, "10=197 200ms"},
-      {13, "11=197 200ms"},
-      {14, "12=197 200ms"},
-      {15, "13=197 200ms"},
-      {16, "9=181 160ms, 14=156 160ms"},
-      {17, "9=140 160ms, 14=189 160ms"},
-      {18, "14=165 160ms, 15=165 160ms"},
-      {19, "13=140 160ms, 15=189 160ms"},
-      {20, "13=181 160ms, 15=156 160ms"},
+      {1, "0=148 200ms"},
+      {2, "0=90 160ms, 1=148 160ms"},
+      {3, "1=123 160ms, 2=123 160ms"},
+      {4, "2=148 160ms, 3=90 160ms"},
+      {5, "3=148 200ms"},
+      {6, "0=90 160ms, 4=140 160ms"},
+      {7, "5=148 200ms"},
+      {8, "6=148 200ms"},
+      {9, "7=148 200ms"},
+      {10, "3=90 160ms, 8=140 160ms"},
+      {11, "9=148 200ms"},
+      {12, "10=148 200ms"},
+      {13, "11=148 200ms"},
+      {14, "12=148 200ms"},
+      {15, "13=148 200ms"},
+      {16, "9=132 160ms, 14=115 160ms"},
+      {17, "9=99 160ms, 14=140 160ms"},
+      {18, "14=123 160ms, 15=123 160ms"},
+      {19, "13=99 160ms, 15=140 160ms"},
+      {20, "13=132 160ms, 15=115 160ms"},
   };
   for (const auto& [box, commands] : golden)
     EXPECT_EQ(commands_for(contact_in(box), started, Rendering::places), commands) << "box " << box;
@@ -101,11 +101,11 @@ TEST(Duemilanove16, drives_by_places_the_motors_about_the_middle_of_each_box) {
 TEST(Duemilanove16, sends_a_touch_below_its_last_row_to_the_nearest_motor) {
   Contact below = contact_in(22);
   below.grid = {5, 6};
-  EXPECT_EQ(commands_for(below), "14=197 200ms");
+  EXPECT_EQ(commands_for(below), "14=148 200ms");
 }
 
 TEST(Duemilanove16, spreads_strength_between_the_least_that_turns_and_the_most_allowed) {
-  const std::map<double, int> golden{{0.0, 0}, {0.001, least}, {0.25, 115}, {0.5, 148}, {1.0, full}, {7.0, full}};
+  const std::map<double, int> golden{{0.0, 0}, {0.001, least}, {0.25, 90}, {0.5, 107}, {1.0, full}, {7.0, full}};
   for (const auto& [strength, intensity] : golden) {
     Contact touch = contact_in(8);
     touch.strength = strength;
@@ -132,10 +132,10 @@ TEST(Duemilanove16, says_a_tap_between_two_motors_in_these_bytes) {
   jacket.feel(tap);
   jacket.pass(300ms);
   EXPECT_EQ(jacket.log,
-            "0: 0b 10 06 0b c5 06 0c c5 06 7d a5 00\n"
-            "30: 0b 10 07 0b c5 03 0c c5 03 fc f1 00\n"
-            "40: 0b 10 08 0b a5 06 0c a5 06 03 85 00\n"
-            "90: 0b 10 09 0b a5 01 0c a5 01 a8 1c 00\n");
+            "0: 0b 10 06 0b 94 06 0c 94 06 90 27 00\n"
+            "30: 0b 10 07 0b 94 03 0c 94 03 11 73 00\n"
+            "40: 0b 10 08 0b 7b 06 0c 7b 06 61 4b 00\n"
+            "90: 0b 10 09 0b 7b 01 0c 7b 01 ca d2 00\n");
 }
 
 TEST(Duemilanove16, covers_four_rows_with_all_sixteen_channels) {

@@ -68,13 +68,13 @@ TEST_F(JacketOverridesTest, AllowNothingThatTheProfileDoesNot) {
   EXPECT_THAT(fault("version = 2\n[[actuator]]\nid = 21\nmax_celsius = 39.5\n"), HasSubstr("max_celsius is 39.5"));
   const auto profile = with("version = 2\nmax_strength = 1\n");
   ASSERT_TRUE(profile);
-  EXPECT_EQ(profile->actuators.front().max_strength, 0.8) << "a limit for all raises none";
+  EXPECT_EQ(profile->actuators.front().max_strength, 0.6) << "a limit for all raises none";
 }
 
 TEST_F(JacketOverridesTest, SwitchOffWhatMayNotTurnAnyMore) {
-  const auto profile = with("version = 2\nmax_strength = 0.3\n");
+  const auto profile = with("version = 2\nmax_strength = 0.2\n");
   ASSERT_TRUE(profile);
-  EXPECT_FALSE(profile->actuators.front().enabled) << "it starts at 0.35";
+  EXPECT_FALSE(profile->actuators.front().enabled) << "it starts at 0.25";
   EXPECT_TRUE(profile->actuators.back().enabled) << "a heater";
 }
 
