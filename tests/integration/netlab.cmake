@@ -15,7 +15,8 @@ telehug_test(test_forwarded_ports KIND integration SUBJECT link
   SOURCES integration/ways/forwarded_ports_test.cpp
   DEPS running_pair netlab telehug_dds)
 
-# They measure how long real processes take: beside other tests they would measure those, with sanitizers nothing.
+# They measure how long real processes take: with sanitizers nothing, beside other tests those; hence they come last
+# (quiet_tests).
 if(NOT TELEHUG_SANITIZER)
   # The wall clock of a program under test (LD_PRELOAD).
   add_library(wall_clock_shim MODULE wall_clock/shim.cpp)
@@ -53,6 +54,6 @@ if(NOT TELEHUG_SANITIZER)
   telehug_test(test_forgery KIND integration SUBJECT link
     SOURCES integration/link_faults/forgery_test.cpp
     DEPS faulty_link telehug_dds telehug_idl USES_FASTDDS)
-  set_tests_properties(test_forgery test_link_changes test_link_faults test_pairing_between_homes test_refusals
-    test_wireguard test_jacket_faults PROPERTIES RUN_SERIAL TRUE)
+  set(quiet_tests test_forgery test_link_changes test_link_faults test_pairing_between_homes test_refusals
+    test_wireguard test_jacket_faults)
 endif()

@@ -21,7 +21,7 @@ picture = "/home/mum/chat.jpg"
 rate_hz = 2
 max_age_ms = 30000
 [sending]
-at_start = "on"
+at_start = "{sending}"
 [peer]
 heartbeat_timeout_ms = 1000
 [local_touch]
@@ -44,10 +44,10 @@ def status():
         return {}
 
 
-def set_keys(device=LOOPBACK, uinput=False):
+def set_keys(device=LOOPBACK, uinput=False, sending="on"):
     os.makedirs(os.path.dirname(SETTINGS), exist_ok=True)
     with open(SETTINGS, "w", encoding="ascii") as file:
-        file.write(KEYS.format(device=device, uinput="true" if uinput else "false"))
+        file.write(KEYS.format(device=device, uinput="true" if uinput else "false", sending=sending))
     run("chown", "-R", "mum:", "/home/mum/.config")
     manager_of_person("restart", UNIT)
 

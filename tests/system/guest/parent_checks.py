@@ -67,6 +67,8 @@ def touchscreen():
     # Where the finger of the pictures slides.
     if x_mm is None or not (150 < x_mm < 275 and 160 < y_mm < 225):
         raise Failed(f"read {x_mm}, {y_mm} mm")
+    parent.set_keys()
+    parent.unplug_camera()
     return f"evtest reads {x_mm:.1f}, {y_mm:.1f} mm"
 
 
@@ -76,6 +78,10 @@ def devices():
 
 
 def camera_lost_and_back():
+    """A touchscreen of the PC's own keeps the camera open whatever the wearer's PC does; and nothing is sent there."""
+    parent.plug_camera()
+    parent.set_keys(uinput=True, sending="off")
+    grows("frames")
     losses = counter("camera_losses")
     parent.unplug_camera()
     start = time.monotonic()
@@ -84,14 +90,16 @@ def camera_lost_and_back():
     parent.plug_camera()
     start = time.monotonic()
     grows("frames")
-    return f"told after {told_s:.1f} s; pictures {time.monotonic() - start:.1f} s after it was back"
+    back_s = time.monotonic() - start
+    parent.unplug_camera()
+    return f"told after {told_s:.1f} s; pictures {back_s:.1f} s after it was back"
 
 
 def vivid():
     run("modprobe", "vivid", "n_devs=1", "node_types=0x1", "num_inputs=1", "input_types=0")
     run("udevadm", "settle")
     device = "/dev/" + run("sh", "-c", "ls /sys/devices/platform/vivid.0/video4linux").split()[0]
-    parent.set_keys(device=device, uinput=True)
+    parent.set_keys(device=device, uinput=True, sending="off")
     grows("frames")
     losses = counter("camera_losses")
     write(f"{VIVID}/unbind", "vivid.0")
@@ -99,7 +107,6 @@ def vivid():
     write(f"{VIVID}/bind", "vivid.0")
     grows("frames")
     parent.set_keys()
-    parent.unplug_camera()
     return f"{device}, lost and back"
 
 
@@ -108,13 +115,17 @@ def write(path, text):
         file.write(text)
 
 
-GROUPS = {"alone": {
-    "apt installs telehug-active": lambda: packages.install("telehug-active"),
-    "its unit is up in a person's session": unit_is_up,
-    "a finger before a v4l2loopback camera moves a uinput touchscreen": touchscreen,
-    "the camera is unplugged, and back": camera_lost_and_back,
-    "vivid's camera, unbound and bound again": vivid,
-}}
+GROUPS = {
+    "alone": {
+        "apt installs telehug-active": lambda: packages.install("telehug-active"),
+        "its unit is up in a person's session": unit_is_up,
+        "a finger before a v4l2loopback camera moves a uinput touchscreen": touchscreen,
+    },
+    "cameras": {
+        "the camera is unplugged, and back": camera_lost_and_back,
+        "vivid's camera, unbound and bound again": vivid,
+    },
+}
 
 
 def main():
