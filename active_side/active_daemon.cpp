@@ -74,7 +74,7 @@ ActiveDaemon::~ActiveDaemon() {
   control_.reset();  // its handlers use the pages
 }
 
-ExitCode ActiveDaemon::run(Signals& signals) {
+ExitCode ActiveDaemon::run(Signals& signals, const ConfigReload<ActiveConfig>& configuration) {
   load_rig_if_changed();
   control_->start();
   pages_.start();
@@ -91,7 +91,7 @@ ExitCode ActiveDaemon::run(Signals& signals) {
     if (request == SignalRequest::stop) break;
     paired = follow_pairs();
     if (!paired) break;
-    if (request == SignalRequest::reload) calibration_time_.reset();
+    if (request == SignalRequest::reload) reload(configuration);
     adopt_setup();
     load_rig_if_changed();
     tell_watchers();
@@ -124,10 +124,7 @@ void ActiveDaemon::adopt_setup() {
   if (!saved) return;
   config_.rig.screen = saved->screen;
   config_.camera.source = saved->camera;
-  if (!saved->monitor.empty() && saved->monitor != config_.body_map.monitor) {
-    config_.body_map.monitor = saved->monitor;
-    if (overlay_) overlay_.emplace(X11OverlayConfig{.display = {}, .monitor = saved->monitor}, clock_);
-  }
+  if (!saved->monitor.empty()) show_monitor(saved->monitor);
   auto camera = setup_->open(*saved);
   {
     const std::lock_guard lock(words_mutex_);
@@ -137,9 +134,34 @@ void ActiveDaemon::adopt_setup() {
   if (camera) {
     new_camera_.put(*std::move(camera));
   } else {
-    spdlog::error("{}", camera.error().message);
+    log_about({.stage = "camera"}, spdlog::level::err, camera.error().message);
   }
   calibration_time_.reset();
+}
+
+void ActiveDaemon::show_monitor(const std::string& monitor) {
+  if (monitor == config_.body_map.monitor) return;
+  config_.body_map.monitor = monitor;
+  if (overlay_) overlay_.emplace(X11OverlayConfig{.display = {}, .monitor = monitor}, clock_);
+}
+
+void ActiveDaemon::reload(const ConfigReload<ActiveConfig>& configuration) {
+  notifier_.reloading(clock_.now());
+  bool new_rig = false;
+  configuration.again(config_, reload_notes_, [&](const ActiveConfig& next) -> Status {
+    std::string problem = use_rig(next);
+    new_rig = problem.empty();
+    // Without a rig there is nothing that a new configuration could break.
+    if (!new_rig && rig_problem_.empty()) return Error{std::move(problem)};
+    show_monitor(next.body_map.monitor);
+    config_.touch = next.touch;
+    config_.body_map = next.body_map;
+    config_.hug = next.hug;
+    config_.log = next.log;
+    return Done{};
+  });
+  if (!new_rig) calibration_time_.reset();
+  notifier_.ready();
 }
 
 void ActiveDaemon::load_rig_if_changed() {
@@ -152,26 +174,37 @@ void ActiveDaemon::load_rig_if_changed() {
   if (calibration_time_ == time) return;
   calibration_time_ = time;
 
-  auto rig = make_rig(config_, touches_, clock_, metrics_, rigs_made_++ * versions_a_rig);
-  const std::string problem = rig ? "" : rig.error().message;
-  const std::string face_note = rig ? (*rig)->face_note : "";
-  if (rig) {
-    const std::string& note = (*rig)->note;
-    say_rig_.say(note.empty() ? spdlog::level::info : spdlog::level::warn,
-                 fmt::format("calibration: {}{}{}", calibration_path_.string(), note.empty() ? "" : "; ", note));
-    face_workers_.push_back((*rig)->face);
-    new_rig_.put(*std::move(rig));
-  } else {
-    say_rig_.say(spdlog::level::warn, problem);
-  }
+  std::string problem = use_rig(config_);
+  if (problem.empty()) return;
+  say_rig_.say(spdlog::level::warn, problem, {.stage = "calibration"});
   const std::lock_guard lock(words_mutex_);
-  rig_problem_ = problem;
-  face_note_ = face_note;
+  rig_problem_ = std::move(problem);
+  face_note_.clear();
+}
+
+std::string ActiveDaemon::use_rig(const ActiveConfig& config) {
+  auto rig = make_rig(config, touches_, clock_, metrics_, rigs_made_++ * versions_a_rig);
+  if (!rig) return rig.error().message;
+  const std::string& note = (*rig)->note;
+  say_rig_.say(note.empty() ? spdlog::level::info : spdlog::level::warn,
+               fmt::format("calibration: {}{}{}", calibration_path_.string(), note.empty() ? "" : "; ", note),
+               {.stage = "calibration"});
+  face_workers_.push_back((*rig)->face);
+  {
+    const std::lock_guard lock(words_mutex_);
+    rig_problem_.clear();
+    face_note_ = (*rig)->face_note;
+  }
+  new_rig_.put(*std::move(rig));
+  return {};
 }
 
 bool ActiveDaemon::follow_pairs() {
   return wearers_.follow_pairs(
-      wall_time(), [](ConnectedWearer&, const std::string& why) { spdlog::error("{}", why); },
+      wall_time(),
+      [](const ConnectedWearer& wearer, const std::string& why) {
+        log_about({.stage = "pairing", .peer = wearer.name()}, spdlog::level::err, why);
+      },
       [](ConnectedWearer& wearer) { wearer.connection.tell_pair_over(); });
 }
 

@@ -16,6 +16,7 @@
 #include "common/version.hpp"
 #include "config/config.hpp"
 #include "connected_wearer.hpp"
+#include "daemon/config_reload.hpp"
 #include "daemon/connections.hpp"
 #include "daemon/pairing_desk.hpp"
 #include "daemon/stop_switch.hpp"
@@ -89,8 +90,8 @@ class ActiveDaemon {
   ActiveDaemon(const ActiveDaemon&) = delete;
   ActiveDaemon& operator=(const ActiveDaemon&) = delete;
 
-  // Until SIGTERM or SIGINT.
-  ExitCode run(Signals& signals);
+  // Until SIGTERM or SIGINT. SIGHUP reads configuration and calibration anew.
+  ExitCode run(Signals& signals, const ConfigReload<ActiveConfig>& configuration);
 
  private:
   using Wearers = Connections<ConnectedWearer>;
@@ -116,7 +117,11 @@ class ActiveDaemon {
 
   // Housekeeping
   void adopt_setup();
+  void reload(const ConfigReload<ActiveConfig>& configuration);
+  void show_monitor(const std::string& monitor);
   void load_rig_if_changed();
+  // Empty, or why there is none; then what was in use before still is.
+  [[nodiscard]] std::string use_rig(const ActiveConfig& config);
   void tell_watchers();
   void tell_pages();
   void tell_local_touch();
@@ -136,7 +141,7 @@ class ActiveDaemon {
   nlohmann::json problems(const TouchThreadState& state, const FaceState& face,
                           const std::vector<ConnectionStatus>& connections) const;
 
-  ActiveConfig config_;
+  ActiveConfig config_;                      // what changes of it the housekeeping thread alone looks at
   const std::vector<std::string> left_out_;  // pairs that could not be used at the start, and why
   const Clock& clock_;
   Timestamp started_;
@@ -183,6 +188,7 @@ class ActiveDaemon {
   boost::lockfree::spsc_queue<SeenHug, boost::lockfree::capacity<16>> shown_hugs_;
 
   // Housekeeping
+  ReloadNotes reload_notes_{Side::active};
   const std::filesystem::path calibration_path_;
   std::optional<std::filesystem::file_time_type> calibration_time_;
   Timestamp calibration_looked_at_;

@@ -24,7 +24,8 @@ void ActiveDaemon::tell_local_touch() {
   }
   if (!works.empty() || !problems.empty()) {
     say_local_touch_.say(problems.empty() ? spdlog::level::info : spdlog::level::warn,
-                         problems.empty() ? "touches are used on this PC: " + works : problems);
+                         problems.empty() ? "touches are used on this PC: " + works : problems,
+                         {.stage = "local_touch"});
   }
 }
 
@@ -58,7 +59,7 @@ void ActiveDaemon::serve_desktop() {
   };
   if (overlay_) note(overlay_->open(), overlay_->last_error());
   if (hotkey_) note(hotkey_->open(), hotkey_->last_error());
-  if (!problem.empty()) say_desktop_.say(spdlog::level::warn, problem);
+  if (!problem.empty()) say_desktop_.say(spdlog::level::warn, problem, {.stage = "desktop"});
   const std::lock_guard lock(words_mutex_);
   desktop_problem_ = std::move(problem);
 }

@@ -50,7 +50,7 @@ void ActiveDaemon::serve_hugs(Timestamp now) {
 void ActiveDaemon::show_hugs() {
   SeenHug seen;
   while (shown_hugs_.pop(seen)) {
-    spdlog::info("{} hugs you", seen.from);
+    log_about({.stage = "hug", .peer = seen.from}, spdlog::level::info, fmt::format("{} hugs you", seen.from));
     control_->broadcast({{"event", "hug"}, {"side", "active"}, {"from", seen.from}, {"strength", seen.hug.strength}});
     if (config_.hug.notify) desktop_notifier_.show({.title = "A hug", .body = fmt::format("{} hugs you.", seen.from)});
     glows_until_ = clock_.now() + glow;
@@ -60,7 +60,7 @@ void ActiveDaemon::show_hugs() {
   desktop_notifier_.serve();
   const std::string& problem = desktop_notifier_.problem();
   if (!problem.empty())
-    say_hug_.say(spdlog::level::warn, fmt::format("a hug is not shown on the desktop: {}", problem));
+    say_hug_.say(spdlog::level::warn, fmt::format("a hug is not shown on the desktop: {}", problem), {.stage = "hug"});
   const std::lock_guard lock(words_mutex_);
   hug_problem_ = problem;
 }

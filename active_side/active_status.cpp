@@ -9,6 +9,8 @@
 #include "active_daemon.hpp"
 #include "body_map_json.hpp"
 #include "common/names.hpp"
+#include "daemon/log_touch.hpp"
+#include "daemon/metric_table.hpp"
 #include "daemon/status_parts.hpp"
 
 namespace telehug {
@@ -122,6 +124,7 @@ bool no_face(const FaceState& face) {
 
 void ActiveDaemon::answer_commands() {
   control_->on("status", [this](const Json&) { return status(); });
+  control_->on("metrics", [this](const Json&) { return Json{{"openmetrics", open_metrics(status(), metrics_)}}; });
   control_->on("face", [this](const Json& request) { return order_face(request); });
   control_->on("hug", [this](const Json& request) { return order_hug(request); });
   stop_.serve(*control_);
@@ -191,6 +194,7 @@ Json ActiveDaemon::problems(const TouchThreadState& state, const FaceState& face
     if (!desktop_problem_.empty())
       list.push_back(problem_json(desktop_problem_, "or turn off [overlay] show and [sending] hotkey"));
   }
+  reload_notes_.add_problems(list);
   if (!face.remark.empty()) list.push_back(problem_json(face.remark, "nothing needs to be done: all works"));
   if (stop_.stopped()) list.push_back(problem_json("stopped here: " + stop_.reason(), "run `telehug resume`"));
   for (const std::string& pair : left_out_)
@@ -310,6 +314,7 @@ void ActiveDaemon::tell_watchers() {
   while (sent_touches_.pop(touch)) {
     touched_box_.sent(touch.contact);
     live_touches_.sent(touch.contact, clock_.now());
+    log_touch("sent", touch.contact.phase, touch.contact.id, touch.contact.box, "");
     if (!control_->has_watchers()) continue;
     Json event = touch_json(touch);
     event["event"] = "touch";
@@ -322,6 +327,7 @@ void ActiveDaemon::tell_watchers() {
       touched_box_.felt(felt);
       live_touches_.felt(felt, wearer->membership().pair ? wearer->name() : "");
       if (feedback_) feedback_->felt(felt);
+      log_touch(name_of(felt.outcome), felt.phase, felt.contact_id, felt.box, wearer->name());
       Json event = felt_json(felt);
       if (wearer->membership().pair) event["wearer"] = wearer->name();
       control_->broadcast(std::move(event));
@@ -333,7 +339,8 @@ void ActiveDaemon::tell_watchers() {
     const std::string problem = feedback_->problem();
     say_feedback_.say(problem.empty() ? spdlog::level::info : spdlog::level::warn,
                       problem.empty() ? "the actuator at the toucher's finger is ready"
-                                      : "the actuator at the toucher's finger: " + problem);
+                                      : "the actuator at the toucher's finger: " + problem,
+                      {.stage = "feedback"});
   }
 
   TouchThreadState state;
@@ -347,13 +354,17 @@ void ActiveDaemon::tell_watchers() {
   told_recording_over_ = state.recording_over;
   const FaceState face = state.face ? state.face->state() : FaceState{};
   show_touched_box(face, state.face.get());
-  say_camera_.say(state.camera_lost ? spdlog::level::warn : spdlog::level::info, state.camera_lost
-                                                                                     ? state.camera_problem
-                                                                                 : state.camera_open ? "camera open"
-                                                                                                     : "camera closed");
+  if (state.camera_lost) {
+    say_camera_.say(spdlog::level::warn, state.camera_problem,
+                    {.stage = "camera", .message_id = message_id::camera_lost});
+  } else if (state.camera_open) {
+    say_camera_.say(spdlog::level::info, "camera open", {.stage = "camera", .message_id = message_id::camera_open});
+  } else {
+    say_camera_.say(spdlog::level::info, "camera closed", {.stage = "camera"});
+  }
   if (face.open || no_face(face)) {
     say_face_.say(no_face(face) ? spdlog::level::warn : spdlog::level::info,
-                  no_face(face) ? face.problem : "face found");
+                  no_face(face) ? face.problem : "face found", {.stage = "face"});
   }
 }
 

@@ -98,7 +98,8 @@ void ActiveDaemon::take_frame() {
   rig_->face->update(map_);
   judge_sending((sending_ || withholding_) && !stop_.stopped());  // the read may have taken its time
   if (outcome == ReadOutcome::lost && !camera_lost_) camera_losses_.add();
-  camera_lost_ = outcome == ReadOutcome::lost;
+  // One that was opened again is there with its first picture.
+  if (outcome != ReadOutcome::timeout) camera_lost_ = outcome == ReadOutcome::lost;
   switch (outcome) {
     case ReadOutcome::frame:
       camera_latency_.record(clock_.now() - frame_.time);

@@ -17,6 +17,7 @@ const telehug::Program program{
              "with the webcam: asks for touches of known points"},
             {"telehug-active calibrate --source replay:RIG_DIR", "of a recording"},
             {"telehug-active camera tune", "in difficult light: chooses exposure and more"},
+            {"telehug-active camera check", "is there light enough?"},
             {"telehug-active camera list", "what can be set and how it is"},
             {"telehug-active camera restore", "as it was before telehug changed it"},
             {"telehug-active run", "the daemon, as the configuration says"},

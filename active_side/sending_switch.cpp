@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sending_switch.hpp"
 
-#include <spdlog/spdlog.h>
+#include <fmt/core.h>
+
+#include "service/log.hpp"
 
 namespace telehug {
 namespace {
@@ -49,7 +51,7 @@ void SendingSwitch::toggle() {
 void SendingSwitch::set(SendingMode mode) {
   const SendingMode before = mode_.exchange(mode);
   if (mode == SendingMode::off && before != SendingMode::off) before_off_ = before;
-  spdlog::info("sending touches: {}", name_of(mode));
+  log_about({.stage = "sending"}, spdlog::level::info, fmt::format("sending touches: {}", name_of(mode)));
 }
 
 nlohmann::json SendingSwitch::set(const nlohmann::json& request) {

@@ -163,12 +163,23 @@ Json ConsentSwitch::quiet(const Json& request) {
   return set(wanted, {{"side", "passive"}, {"own_quiet_hours", quiet_hours_text(*hours)}});
 }
 
-Json ConsentSwitch::set(const Consent& consent, Json answer) {
+void ConsentSwitch::set_configured_quiet_hours(QuietHours hours) {
   {
     const std::lock_guard lock(mutex_);
-    consent_ = consent;
+    consent_.quiet_hours = std::move(hours);
+    newest_.put(consent_);
   }
-  newest_.put(consent);
+  changed_();
+}
+
+Json ConsentSwitch::set(Consent consent, Json answer) {
+  {
+    const std::lock_guard lock(mutex_);
+    // Those of the configuration may have changed since `consent` was copied, and no command sets them.
+    consent.quiet_hours = consent_.quiet_hours;
+    consent_ = consent;
+    newest_.put(consent);
+  }
   changed_();
   const Status kept = keep_consent(file_, consent);
   Json problem;

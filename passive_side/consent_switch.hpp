@@ -36,6 +36,11 @@ class ConsentSwitch {
   nlohmann::json strength(const nlohmann::json& request);
   nlohmann::json quiet(const nlohmann::json& request);
 
+  // --- housekeeping thread ---
+
+  // The configuration's quiet hours are others now; the wearer's own stay.
+  void set_configured_quiet_hours(QuietHours hours);
+
   // --- drive thread ---
 
   // What is wanted, if that has changed since the last call.
@@ -48,7 +53,7 @@ class ConsentSwitch {
   [[nodiscard]] nlohmann::json problem() const;
 
  private:
-  nlohmann::json set(const Consent& consent, nlohmann::json answer);
+  nlohmann::json set(Consent consent, nlohmann::json answer);
 
   const std::filesystem::path file_;
   const JacketProfile& profile_;

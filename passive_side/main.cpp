@@ -63,7 +63,7 @@ ExitCode run(const Options& options) {
   const SteadyClock clock;
   try {
     PassiveDaemon daemon(*config, *std::move(found), *std::move(profile), *std::move(link), clock);
-    return daemon.run(signals);
+    return daemon.run(signals, ConfigReload<PassiveConfig>([&sources] { return load_passive_config(sources); }));
   } catch (const AlreadyRunning& running) {
     return fail(ExitCode::already_running, running.what());
   } catch (const LineMissing& missing) {

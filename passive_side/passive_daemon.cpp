@@ -85,7 +85,7 @@ std::shared_ptr<ConnectedSender> PassiveDaemon::connect(Membership membership, c
                                            });
 }
 
-ExitCode PassiveDaemon::run(Signals& signals) {
+ExitCode PassiveDaemon::run(Signals& signals, const ConfigReload<PassiveConfig>& configuration) {
   control_->start();
   pages_.start();
   panel_->start();  // before anything can be driven
@@ -102,7 +102,10 @@ ExitCode PassiveDaemon::run(Signals& signals) {
   for (const std::string& problem : panel_->status().problems)
     spdlog::warn("{}", problem);
   bool paired = true;
-  while (signals.wait(housekeeping_round) != SignalRequest::stop) {
+  while (true) {
+    const auto request = signals.wait(housekeeping_round);
+    if (request == SignalRequest::stop) break;
+    if (request == SignalRequest::reload) reload(configuration);
     paired = follow_pairs();
     if (!paired) break;
     tzset();  // follows a time zone that is changed meanwhile; looks at no more than the file's date if it is not
@@ -119,9 +122,22 @@ ExitCode PassiveDaemon::run(Signals& signals) {
   return paired ? ExitCode::ok : ExitCode::pair_ended;
 }
 
+void PassiveDaemon::reload(const ConfigReload<PassiveConfig>& configuration) {
+  notifier_.reloading(clock_.now());
+  configuration.again(config_, reload_notes_, [this](const PassiveConfig& next) -> Status {
+    auto hours = parse_quiet_hours(next.consent.quiet_hours);
+    if (!hours) return hours.error();
+    if (next.consent.quiet_hours != config_.consent.quiet_hours) consent_.set_configured_quiet_hours(*std::move(hours));
+    config_.consent.quiet_hours = next.consent.quiet_hours;
+    config_.log = next.log;
+    return Done{};
+  });
+  notifier_.ready();
+}
+
 bool PassiveDaemon::follow_pairs() {
   const auto ending = [this](ConnectedSender& sender, const std::string& why) {
-    spdlog::error("{}", why);
+    log_about({.stage = "pairing", .peer = sender.name()}, spdlog::level::err, why);
     // A stop outlives whoever said it.
     if (sender.connection.stopped_by_peer() && !stop_.stopped())
       stop_.stop({{"reason", sender.name() + " had stopped everything before the pair ended"}});
@@ -243,6 +259,7 @@ void PassiveDaemon::tell_state(Timestamp now) {
   own_state_.link = safety_.link_status();
   own_state_.safety = safety_.counters();
   own_state_.heaters = safety_.heaters();
+  own_state_.duties = safety_.duties();
   for (const auto& sender : senders_.adopted())
     sender->connection.tell_state(now);
   own_state_.stopped = safety_.stopped();

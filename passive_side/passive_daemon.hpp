@@ -18,6 +18,7 @@
 #include "config/config.hpp"
 #include "connected_sender.hpp"
 #include "consent_switch.hpp"
+#include "daemon/config_reload.hpp"
 #include "daemon/connections.hpp"
 #include "daemon/pairing_desk.hpp"
 #include "daemon/stop_switch.hpp"
@@ -50,6 +51,7 @@ struct DriveThreadState {
   LinkStatus link;
   SafetyCounters safety;
   HeaterReports heaters;
+  DutyReports duties;
   bool stopped = false;
   std::string stop_reason;
   std::vector<std::uint8_t> running;  // ids of actuators
@@ -87,8 +89,8 @@ class PassiveDaemon {
   PassiveDaemon(const PassiveDaemon&) = delete;
   PassiveDaemon& operator=(const PassiveDaemon&) = delete;
 
-  // Until SIGTERM or SIGINT; the jacket is off when it returns.
-  ExitCode run(Signals& signals);
+  // Until SIGTERM or SIGINT; the jacket is off when it returns. SIGHUP reads the configuration anew.
+  ExitCode run(Signals& signals, const ConfigReload<PassiveConfig>& configuration);
 
  private:
   using Senders = Connections<ConnectedSender>;
@@ -109,6 +111,7 @@ class PassiveDaemon {
   void tell_panel(Timestamp now);
 
   // Housekeeping
+  void reload(const ConfigReload<PassiveConfig>& configuration);
   [[nodiscard]] bool follow_pairs();
   void tell_watchers();
   void tell_running_to_all();
@@ -131,7 +134,7 @@ class PassiveDaemon {
   [[nodiscard]] DriveThreadState state() const;
   [[nodiscard]] std::unique_ptr<Panel> make_panel();
 
-  PassiveConfig config_;
+  PassiveConfig config_;  // of it [consent] quiet_hours and [log] change, which the housekeeping thread alone looks at
   const std::vector<std::string> left_out_;  // pairs that could not be used at the start, and why
   const Clock& clock_;
   Timestamp started_;
@@ -173,6 +176,7 @@ class PassiveDaemon {
   boost::lockfree::spsc_queue<RunningChange, boost::lockfree::capacity<1024>> running_;
 
   // Housekeeping
+  ReloadNotes reload_notes_{Side::passive};
   SayOnChange say_jacket_;
   SayOnChange say_consent_;
   LimitNotes limit_notes_;

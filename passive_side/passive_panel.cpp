@@ -54,7 +54,7 @@ void PassiveDaemon::answer_hug_button() {
   if (!hug_pressed_.exchange(false)) return;
   const auto answer = order_hug({{"command", "hug"}});
   if (const auto refused = answer.find("error"); refused != answer.end())
-    spdlog::info("the hug button was pressed, but {}", refused->get<std::string>());
+    log_about({.stage = "hug"}, spdlog::level::info, "the hug button was pressed, but " + refused->get<std::string>());
 }
 
 void PassiveDaemon::add_panel(nlohmann::json& status) const {

@@ -43,6 +43,9 @@ void PassiveDaemon::add_safety_status(Json& answer, const DriveThreadState& now)
   const Consent consent = consent_.consent();
   const WallTime time = wall_time();
   answer["consent"] = consent_json(consent, time);
+  answer["duty"] = Json::array();
+  for (const DutyReport& motor : now.duties)
+    answer["duty"].push_back({{"id", motor.id}, {"used", motor.used}});
   if (now.heaters.empty()) return;
   const std::string refusal = now.stopped ? "stopped: " + now.stop_reason : refusal_text(consent, time);
   const Permission permission = permission_at(consent, time, local_minute(time));
@@ -85,9 +88,11 @@ void PassiveDaemon::add_safety_counters(Json& counters, const SafetyCounters& sa
 }
 
 void PassiveDaemon::tell_of_limits() {
-  if (const auto note = limit_notes_.next(state().safety, clock_.now())) spdlog::info("{}", *note);
+  if (const auto note = limit_notes_.next(state().safety, clock_.now()))
+    log_about({.stage = "safety"}, spdlog::level::info, *note);
   const std::string refusal = refusal_text(consent_.consent(), wall_time());
-  say_consent_.say(spdlog::level::info, refusal.empty() ? "touches may be felt" : refusal + ": nothing is felt");
+  say_consent_.say(spdlog::level::info, refusal.empty() ? "touches may be felt" : refusal + ": nothing is felt",
+                   {.stage = "consent"});
 }
 
 }  // namespace telehug

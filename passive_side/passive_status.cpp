@@ -4,6 +4,8 @@
 #include <fmt/core.h>
 
 #include "common/names.hpp"
+#include "daemon/log_touch.hpp"
+#include "daemon/metric_table.hpp"
 #include "daemon/status_parts.hpp"
 #include "jacket_status.hpp"
 #include "passive_daemon.hpp"
@@ -36,6 +38,7 @@ Json felt_json(const Felt& felt) {
 
 void PassiveDaemon::answer_commands() {
   control_->on("status", [this](const Json&) { return status(); });
+  control_->on("metrics", [this](const Json&) { return Json{{"openmetrics", open_metrics(status(), metrics_)}}; });
   control_->on("hug", [this](const Json& request) { return order_hug(request); });
   control_->on("jacket", [this](const Json& request) { return describe_jacket(request); });
   control_->on("jacket_trial", [this](const Json& request) { return order_trial(request); });
@@ -54,6 +57,7 @@ Json PassiveDaemon::problems(const DriveThreadState& now, const std::vector<Conn
   for (const std::string& pair : left_out_)
     list.push_back(problem_json(pair, "the other pairs work; start telehug-passive again when it is mended"));
   add_absences(list, Side::passive, connections);
+  reload_notes_.add_problems(list);
   return list;
 }
 
@@ -101,24 +105,30 @@ void PassiveDaemon::tell_watchers() {
   GivenAnswer answer;
   while (felt_.pop(answer)) {
     if (answer.felt.phase == Phase::down && answer.felt.outcome == FeltOutcome::driven) touches_today_.add(wall_time());
+    const auto of = std::ranges::find(senders, answer.sender, [](const auto& sender) { return sender->number; });
+    log_touch(name_of(answer.felt.outcome), answer.felt.phase, answer.felt.contact_id, answer.felt.box,
+              of != senders.end() ? (*of)->name() : "");
     if (!control_->has_watchers()) continue;
     Json event = felt_json(answer.felt);
     event["event"] = "felt";
     event["side"] = "passive";
-    const auto of = std::ranges::find(senders, answer.sender, [](const auto& sender) { return sender->number; });
     if (of != senders.end() && (*of)->membership().pair) event["sender"] = (*of)->name();
     control_->broadcast(std::move(event));
   }
   const DriveThreadState now = state();
+  const LogFields ready{.stage = "jacket", .message_id = message_id::jacket_ready};
   if (now.link.state == LinkState::armed && !now.link.answers) {
     say_jacket_.say(
         spdlog::level::info,
-        fmt::format("jacket on {}: it answers nothing, so whether it is there is not known", now.link.device));
+        fmt::format("jacket on {}: it answers nothing, so whether it is there is not known", now.link.device), ready);
   } else if (now.link.state == LinkState::armed) {
-    say_jacket_.say(spdlog::level::info, fmt::format("jacket ready: {}, firmware {}, {} motors", now.link.device,
-                                                     now.link.firmware_version, now.link.motor_count));
+    say_jacket_.say(spdlog::level::info,
+                    fmt::format("jacket ready: {}, firmware {}, {} motors", now.link.device, now.link.firmware_version,
+                                now.link.motor_count),
+                    ready);
   } else if (!now.link.problem.empty()) {  // else it has only begun
-    say_jacket_.say(spdlog::level::warn, fmt::format("no jacket answers on {}: {}", now.link.device, now.link.problem));
+    say_jacket_.say(spdlog::level::warn, fmt::format("no jacket answers on {}: {}", now.link.device, now.link.problem),
+                    {.stage = "jacket", .message_id = message_id::jacket_absent});
   }
 }
 

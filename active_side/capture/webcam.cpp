@@ -19,6 +19,7 @@ namespace {
 
 constexpr std::uint32_t wanted_buffers = 4;  // one being filled, one being read, two against hiccups
 constexpr int most_odd_sizes = 15;           // half a second; then the camera is set up again
+constexpr Duration longest_silence = 5s;     // some need two to begin; then the camera is set up again
 constexpr Duration oldest_believable = 10s;  // a kernel time before that is no time of taking
 
 std::string fourcc(std::uint32_t format) {
@@ -187,6 +188,7 @@ Status Webcam::start_stream() {
     return webcam_failure(settings_.device, "started", code);
   streaming_ = first_since_start_ = true;
   odd_sizes_ = 0;
+  last_picture_ = clock_.now();
   return Done{};
 }
 
@@ -198,12 +200,14 @@ ReadOutcome Webcam::read(Frame& frame, Duration timeout) {
   int code = dequeue(newest);
   while (code == -EAGAIN) {
     const Timestamp now = clock_.now();
+    if (now - last_picture_ >= longest_silence) return let_go("delivers no pictures; plug it in again");
     if (now >= deadline) return ReadOutcome::timeout;
     const int ready = calls_.wait(fd_, deadline - now);
     if (ready < 0) return lose(ready);
     if (ready > 0) code = dequeue(newest);
   }
   if (code < 0) return lose(code);
+  last_picture_ = clock_.now();
 
   // Newest wins: what waited behind this one is newer.
   for (Picture newer; (code = dequeue(newer)) == 0; newest = newer) {

@@ -24,7 +24,7 @@ struct WebcamSettings {
 // A V4L2 webcam that delivers MJPEG or YUYV. Of several waiting pictures the newest is read. Frames carry the kernel's
 // time of taking if it is CLOCK_MONOTONIC, else the time of reading. When the camera is unplugged, read() says `lost`
 // and looks for it again at most every 500 ms until close(). It does the same with one whose pictures have lost the
-// agreed size.
+// agreed size or do not come any more.
 class Webcam final : public FrameSource {
  public:
   // `clock` and `calls` must outlive the webcam.
@@ -98,6 +98,7 @@ class Webcam final : public FrameSource {
   std::string mode_;
   std::uint32_t driver_sequence_ = 0;
   bool first_since_start_ = true;
+  Timestamp last_picture_;  // when one came, or the stream was started
   std::uint64_t sequence_ = 0;
   int odd_sizes_ = 0;  // pictures of another size than was agreed, in a row
   std::uint64_t broken_frames_ = 0;

@@ -5,6 +5,7 @@
 
 #include "capture/webcam.hpp"
 #include "capture/webcam_device.hpp"
+#include "commands/camera_check.hpp"
 #include "commands/config_options.hpp"
 #include "config/places.hpp"
 #include "setup_run/tuning_with_finger.hpp"
@@ -103,6 +104,7 @@ void add_camera(CLI::App& app, ExitCode& result) {
       ->add_option("--seconds", options->seconds, "How long it may take")
       ->check(CLI::Range(5.0, 600.0))
       ->capture_default_str();
+  add_camera_check(*camera, result);
   add("restore", "Put back what a telehug that was killed has left changed", &restore);
 }
 

@@ -27,11 +27,16 @@ SetupTools setup_tools(const Options& options, const ActiveConfig& config, const
           .clock = clock};
 }
 
+Result<ActiveConfig> configured(const Options& options) {
+  auto config = load_config(options.config);
+  if (config && !options.source.empty()) config->camera.source = options.source;
+  return config;
+}
+
 ExitCode run(const Options& options) {
   Signals signals;
-  auto config = load_config(options.config);
+  const auto config = configured(options);
   if (!config) return fail(ExitCode::config, config.error());
-  if (!options.source.empty()) config->camera.source = options.source;
   set_up_log(config->log.level);
   auto found = memberships(config->peer, Side::active, wall_time());
   if (!found) return fail(ExitCode::config, found.error());
@@ -52,7 +57,7 @@ ExitCode run(const Options& options) {
   try {
     ActiveDaemon daemon(*config, *std::move(found), *std::move(camera), *std::move(feedback),
                         setup_tools(options, *config, capture, clock), clock);
-    return daemon.run(signals);
+    return daemon.run(signals, ConfigReload<ActiveConfig>([&options] { return configured(options); }));
   } catch (const AlreadyRunning& running) {
     return fail(ExitCode::already_running, Error{running.what()});
   } catch (const DdsError& error) {

@@ -2,10 +2,11 @@
 #include "setup_run/setup_desk.hpp"
 
 #include <fmt/core.h>
-#include <spdlog/spdlog.h>
 
 #include <algorithm>
 #include <utility>
+
+#include "service/log.hpp"
 
 namespace telehug {
 namespace {
@@ -192,7 +193,8 @@ void SetupDesk::work(const SetupChoice& choice) {
     end = {{"why", "failed"}, {"problem", problem.what()}};
   }
   handover_.give_back();
-  if (end["why"] == "failed") spdlog::warn("setting up: {}", end["problem"].get<std::string>());
+  if (end["why"] == "failed")
+    log_about({.stage = "setup"}, spdlog::level::warn, "setting up: " + end["problem"].get<std::string>());
   tell_end(std::move(end));
 }
 

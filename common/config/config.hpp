@@ -29,6 +29,7 @@ struct ControlConfig {
 struct WebConfig {
   bool enabled = true;
   int port = 0;  // 0: the kernel chooses one
+  bool metrics = false;
 };
 
 struct LogConfig {

@@ -15,9 +15,10 @@ namespace telehug {
 struct KeySetting {
   std::string section;
   std::string name;
-  std::string value;     // as it is written in a file
-  std::string standard;  // the default, likewise
-  std::string origin;    // "file:line", or the flag; empty: nothing sets it
+  std::string value;       // as it is written in a file
+  std::string standard;    // the default, likewise
+  std::string origin;      // "file:line", or the flag; empty: nothing sets it
+  bool free_text = false;  // may hold anything a person writes: names, addresses
 };
 
 struct ConfigReport {
@@ -28,5 +29,10 @@ struct ConfigReport {
 
 // A key with a fault is told as it was before.
 [[nodiscard]] ConfigReport inspect_config(const ConfigSources& sources, Side side);
+
+// The configuration as far as it can be read: keys with faults are as they were before. For programs that look at what
+// is wrong.
+[[nodiscard]] ActiveConfig readable_active_config(const ConfigSources& sources);
+[[nodiscard]] PassiveConfig readable_passive_config(const ConfigSources& sources);
 
 }  // namespace telehug

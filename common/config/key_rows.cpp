@@ -76,6 +76,13 @@ Rows common_rows(ControlConfig& control, WebConfig& web, LogConfig& log) {
        {},
        "true: `telehug open` shows this side's pages in the browser of this PC; nobody else can reach them."},
       {"web", "port", &web.port, "", Range{0, 65535}, "TCP port of the pages, on 127.0.0.1 alone; 0: any free one."},
+      {"web",
+       "metrics",
+       &web.metrics,
+       "",
+       {},
+       "true: /metrics on that port tells any program and user of this PC counters and latencies (OpenMetrics), "
+       "without a cookie; give the port a number then."},
       {"log", "level", &log.level, "", OneOf{{"trace", "debug", "info", "warn", "error"}},
        "The least important messages that are logged."},
   };

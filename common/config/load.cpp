@@ -64,12 +64,26 @@ Result<Config> load(const ConfigSources& sources, Side side) {
 }
 
 template <typename Config>
+Config readable(const ConfigSources& sources, Side side) {
+  Config config;
+  std::vector<Key> keys = keys_of(config);
+  (void)read_layers(sources, side, config, keys);
+  return config;
+}
+
+template <typename Config>
 ConfigReport inspect(const ConfigSources& sources, Side side) {
   Config config;
   std::vector<Key> keys = keys_of(config);
   ConfigReport report;
   for (const Key& key : keys)
-    report.settings.push_back({std::string(key.section), std::string(key.name), {}, toml_text(key.target), {}});
+    report.settings.push_back(
+        {std::string(key.section),
+         std::string(key.name),
+         {},
+         toml_text(key.target),
+         {},
+         std::holds_alternative<std::string*>(key.target) && !std::holds_alternative<OneOf>(key.limits)});
   report.files = config_files(sources, side);
   report.faults = read_layers(sources, side, config, keys);
   for (std::size_t i = 0; i < keys.size(); ++i) {
@@ -87,6 +101,14 @@ Result<ActiveConfig> load_active_config(const ConfigSources& sources) {
 
 Result<PassiveConfig> load_passive_config(const ConfigSources& sources) {
   return load<PassiveConfig>(sources, Side::passive);
+}
+
+ActiveConfig readable_active_config(const ConfigSources& sources) {
+  return readable<ActiveConfig>(sources, Side::active);
+}
+
+PassiveConfig readable_passive_config(const ConfigSources& sources) {
+  return readable<PassiveConfig>(sources, Side::passive);
 }
 
 ConfigReport inspect_config(const ConfigSources& sources, Side side) {

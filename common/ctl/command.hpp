@@ -18,6 +18,7 @@ void add_stop(CLI::App& app, ExitCode& result);
 void add_resume(CLI::App& app, ExitCode& result);
 void add_pause(CLI::App& app, ExitCode& result);
 void add_unpause(CLI::App& app, ExitCode& result);
+void add_metrics(CLI::App& app, ExitCode& result);
 void add_mute(CLI::App& app, ExitCode& result);
 void add_unmute(CLI::App& app, ExitCode& result);
 void add_strength(CLI::App& app, ExitCode& result);
@@ -29,6 +30,7 @@ void add_jacket(CLI::App& app, ExitCode& result);
 void add_open(CLI::App& app, ExitCode& result);
 void add_config(CLI::App& app, ExitCode& result);
 void add_doctor(CLI::App& app, ExitCode& result);
+void add_report(CLI::App& app, ExitCode& result);
 void add_pair(CLI::App& app, ExitCode& result);
 void add_version(CLI::App& app, ExitCode& result);
 

@@ -8,8 +8,7 @@
 
 #include "ctl/command.hpp"
 #include "ctl/config_choice.hpp"
-#include "ctl/doctor_checks.hpp"
-#include "ctl/plain_text.hpp"
+#include "ctl/doctor/doctor_text.hpp"
 
 namespace telehug {
 namespace {
@@ -17,30 +16,22 @@ namespace {
 struct Options {
   ConfigChoice choice;
   std::string root = "/";
+  bool bootloader = false;
   bool json = false;
 };
 
-const char* word(Level level) {
-  return level == Level::ok ? "ok" : level == Level::warn ? "warn" : "fail";
-}
-
 ExitCode run(const Options& options) {
-  const Findings findings = all_checks(gather_facts(options.choice.sides(), options.choice.sources(), options.root));
-  nlohmann::json all = nlohmann::json::array();
-  ExitCode result = ExitCode::ok;
-  for (const Finding& finding : findings) {
-    if (finding.level == Level::fail) result = ExitCode::fault;
-    if (options.json) {
-      all.push_back(
-          {{"check", finding.check}, {"level", word(finding.level)}, {"what", finding.what}, {"fix", finding.fix}});
-      continue;
-    }
-    fmt::print("{:<5} {:<13} {}\n", word(finding.level), finding.check, plain_text(finding.what));
-    if (!finding.fix.empty()) fmt::print("{:<19} -> {}\n", "", plain_text(finding.fix));
-  }
-  if (options.json)
-    fmt::print("{}\n", nlohmann::json{{"findings", all}}.dump(1, ' ', false, nlohmann::json::error_handler_t::replace));
-  return result;
+  DoctorWishes wishes;
+  if (!options.choice.side.empty()) wishes.sides = options.choice.sides();
+  wishes.sources = options.choice.sources();
+  wishes.system = options.choice.system;
+  wishes.root = options.root;
+  wishes.ask_bootloader = options.bootloader;
+  const Findings findings = all_checks(gather_facts(wishes));
+  fmt::print("{}", options.json
+                       ? doctor_json(findings).dump(1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n"
+                       : doctor_text(findings));
+  return anything_fails(findings) ? ExitCode::fault : ExitCode::ok;
 }
 
 }  // namespace
@@ -50,6 +41,8 @@ void add_doctor(CLI::App& app, ExitCode& result) {
   CLI::App* command = app.add_subcommand(
       "doctor", "What keeps telehug from working here, and what mends it; ends with 12 if anything does");
   add_config_choice(*command, options->choice);
+  command->add_flag("--bootloader", options->bootloader,
+                    "Also ask the jacket's bootloader, which resets the jacket: take it off first");
   command->add_option("--root", options->root, "Look at a system that lies below this folder (default: /)")
       ->type_name("DIR");
   command->add_flag("--json", options->json, "For programs");

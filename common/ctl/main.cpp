@@ -17,6 +17,7 @@ const telehug::Program program{
              "for scripts: what is not as it should be, as exit code"},
             {"telehug watch", "touches and answers as they happen"},
             {"telehug watch --json --count 1", "waits for the next event"},
+            {"telehug metrics --side passive", "counters and latencies for a scraper (OpenMetrics)"},
             {"telehug open", "this side's pages in the browser"},
             {"telehug open --start", "what the desktop's entry does: also starts the parent's side"},
             {"telehug open passive --print", "only the link"},
@@ -56,6 +57,8 @@ const telehug::Program program{
             {"telehug config diff", "only what is not as shipped"},
             {"telehug doctor", "what keeps telehug from working here, and what mends it"},
             {"telehug doctor passive --json", "the wearer's side alone, for programs"},
+            {"telehug doctor passive --bootloader", "also the jacket's bootloader, which resets the jacket"},
+            {"telehug report --output report.txt", "one file for a bug report, to read before it is sent"},
             {"telehug version", "of this program"},
         },
     .exits = {ExitCode::ok, ExitCode::internal, ExitCode::usage, ExitCode::config, ExitCode::device,
@@ -68,6 +71,7 @@ const telehug::Program program{
 void add_commands(CLI::App& app, ExitCode& result) {
   telehug::add_status(app, result);
   telehug::add_watch(app, result);
+  telehug::add_metrics(app, result);
   telehug::add_stop(app, result);
   telehug::add_resume(app, result);
   telehug::add_pause(app, result);
@@ -84,6 +88,7 @@ void add_commands(CLI::App& app, ExitCode& result) {
   telehug::add_pair(app, result);
   telehug::add_config(app, result);
   telehug::add_doctor(app, result);
+  telehug::add_report(app, result);
   telehug::add_version(app, result);
 }
 

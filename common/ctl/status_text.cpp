@@ -151,6 +151,17 @@ std::string heaters_text(const Json& heaters) {
   return text;
 }
 
+// Of motors that have used up a hundredth of their budget or more.
+std::string duty_text(const Json& duty) {
+  std::string text;
+  for (const Json& motor : duty.is_array() ? duty : Json::array()) {
+    const Json* used = part(motor, "used");
+    if (used == nullptr || !used->is_number() || used->get<double>() < 0.01) continue;
+    text = joined(text, ", ", fmt::format("motor {} {:.0f} %", text_at(motor, "id"), used->get<double>() * 100));
+  }
+  return text.empty() ? "" : line("duty used", text);
+}
+
 std::string counters_text(const Json& counters) {
   if (!counters.is_object() || counters.empty()) return "";
   std::string text = "  counters\n";
@@ -181,8 +192,8 @@ std::string latencies_text(const Json& stages) {
 std::string status_text(const Json& status) {
   static constexpr std::array<const char*, 8> things{"camera",  "screen", "face",       "sending",
                                                      "consent", "jacket", "last_touch", "last_hug"};
-  static constexpr std::array<const char*, 10> placed{"side", "version", "uptime_s", "state",    "problems",
-                                                      "peer", "peers",   "heaters",  "counters", "latency_ms"};
+  static constexpr std::array<const char*, 11> placed{"side",  "version", "uptime_s", "state",    "problems",  "peer",
+                                                      "peers", "heaters", "duty",     "counters", "latency_ms"};
   std::string text = heading(status);
   if (const Json* problems = part(status, "problems")) text += problems_text(*problems);
   text += peers_text(status);
@@ -192,6 +203,7 @@ std::string status_text(const Json& status) {
     if (const Json* thing = part(status, name)) text += thing_text(label, *thing);
   }
   if (const Json* heaters = part(status, "heaters")) text += heaters_text(*heaters);
+  if (const Json* duty = part(status, "duty")) text += duty_text(*duty);
   if (status.is_object()) {
     for (const auto& [name, value] : status.items()) {
       const auto is = [&key = name](const char* known) { return key == known; };

@@ -74,7 +74,11 @@ class Connection {
     const auto absence = [&] {
       return peer_absence(membership_.dds.side, membership_.pair.has_value(), told(), keeper_.strangers().stranger());
     };
-    say_peer_.say(spdlog::level::info, peer.alive ? name() + " is connected" : name() + ": " + absence().what);
+    const std::string peer_name = name();
+    say_peer_.say(spdlog::level::info, peer.alive ? peer_name + " is connected" : peer_name + ": " + absence().what,
+                  {.stage = "link",
+                   .peer = peer_name,
+                   .message_id = peer.alive ? message_id::peer_connected : message_id::peer_absent});
   }
 
   // The last word, when the pair is over; waits a moment for the peer to have it.

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "daemon/link_keeper.hpp"
 
+#include <fmt/core.h>
 #include <malloc.h>
-#include <spdlog/spdlog.h>
 #include <unistd.h>
 
 #include <fstream>
 #include <utility>
+
+#include "service/log.hpp"
 
 namespace telehug {
 namespace {
@@ -99,11 +101,12 @@ void LinkKeeper::replace(LinkCause cause, const Endpoints& endpoints) {
     endpoints.disconnect();
     participant_.reset();
     supervisor_.creation_failed(clock_.now());
-    spdlog::warn("the connection can't be set up: {}; it is tried again by itself", problem.what());
+    log_about({.stage = "link"}, spdlog::level::warn,
+              fmt::format("the connection can't be set up: {}; it is tried again by itself", problem.what()));
     return;
   }
   supervisor_.made(cause, clock_.now());
-  spdlog::info("the connection was set up anew: {}", sentence(cause));
+  log_about({.stage = "link"}, spdlog::level::info, fmt::format("the connection was set up anew: {}", sentence(cause)));
   const std::lock_guard lock(told_mutex_);
   told_ = {{"replaced", supervisor_.replaced()}, {"last_reason", sentence(cause)}};
 }

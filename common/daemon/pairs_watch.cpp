@@ -25,15 +25,16 @@ std::optional<std::vector<Membership>> PairsWatch::changed(WallTime now) {
     seen_ = std::move(present);
     auto found = memberships(config_, side_, now);
     if (found) return std::move(found->members);
-    say_.say(spdlog::level::warn, "the connections stay as they are: " + found.error().message);
+    say_.say(spdlog::level::warn, "the connections stay as they are: " + found.error().message, {.stage = "pairing"});
   } catch (const std::exception& problem) {
-    say_.say(spdlog::level::warn, std::string("the pairs of this PC can't be read: ") + problem.what());
+    say_.say(spdlog::level::warn, std::string("the pairs of this PC can't be read: ") + problem.what(),
+             {.stage = "pairing"});
   }
   return {};
 }
 
 void PairsWatch::look_again(const std::string& problem) {
-  say_.say(spdlog::level::warn, "a new pair can't be used yet: " + problem);
+  say_.say(spdlog::level::warn, "a new pair can't be used yet: " + problem, {.stage = "pairing"});
   seen_.reset();
 }
 

@@ -2,9 +2,10 @@
 #include "daemon/renewal_link.hpp"
 
 #include <fmt/chrono.h>
-#include <spdlog/spdlog.h>
 
 #include <utility>
+
+#include "service/log.hpp"
 
 namespace telehug {
 namespace {
@@ -27,14 +28,16 @@ RenewalSender::RenewalSender(const std::optional<Pair>& pair, SessionId session)
 
 void RenewalSender::serve(WallTime now) {
   if (!offer_) return;
-  if (const Status done = offer_->serve(now); !done) spdlog::warn("{}", done.error().message);
+  if (const Status done = offer_->serve(now); !done)
+    log_about({.stage = "pairing", .peer = pair_->name}, spdlog::level::warn, done.error().message);
   const auto& newest = offer_->newest();
   if (!newest) return;
   if (newest->certificate != offered_) {
     offered_ = newest->certificate;
     told_ = false;
-    spdlog::info("the pair with {} is renewed until {}; the other PC gets that when it is connected", pair_->name,
-                 date(present(*pair_).expires));
+    log_about({.stage = "pairing", .peer = pair_->name}, spdlog::level::info,
+              fmt::format("the pair with {} is renewed until {}; the other PC gets that when it is connected",
+                          pair_->name, date(present(*pair_).expires)));
   }
   if (writer_ && !told_) told_ = writer_->write({session_, newest->certificate, newest->permissions});
 }
@@ -53,10 +56,12 @@ void RenewalReceiver::serve(WallTime now) {
   PairStore store(pair_->files.private_key.parent_path().parent_path(), Side::active);
   const auto installed = store.install({pair_->id, std::move(come->certificate), std::move(come->permissions)}, now);
   if (!installed) {
-    if (installed.error().message != told_problem_) spdlog::warn("{}", installed.error().message);
+    if (installed.error().message != told_problem_)
+      log_about({.stage = "pairing", .peer = pair_->name}, spdlog::level::warn, installed.error().message);
     told_problem_ = installed.error().message;
   } else if (*installed) {
-    spdlog::info("the pair with {} was renewed until {}", pair_->name, date((*installed)->expires));
+    log_about({.stage = "pairing", .peer = pair_->name}, spdlog::level::info,
+              fmt::format("the pair with {} was renewed until {}", pair_->name, date((*installed)->expires)));
   }
 }
 

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "daemon/stop_switch.hpp"
 
-#include <spdlog/spdlog.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <utility>
+
+#include "service/log.hpp"
 
 namespace telehug {
 namespace {
@@ -28,6 +30,11 @@ std::string reason_in(const nlohmann::json& request) {
   return given ? one_line(reason->get<std::string>()) : "stopped on this side";
 }
 
+void say_stopped(const std::string& reason) {
+  log_about({.stage = "stop", .message_id = message_id::stopped}, spdlog::level::warn,
+            fmt::format("stopped: {}", reason));
+}
+
 }  // namespace
 
 void StopSwitch::serve(ControlServer& control) {
@@ -41,7 +48,7 @@ nlohmann::json StopSwitch::stop(const nlohmann::json& request) {
     const std::lock_guard lock(mutex_);
     set(true, reason);
   }
-  spdlog::warn("stopped: {}", reason);
+  say_stopped(reason);
   return {{"stopped", true}};
 }
 
@@ -51,7 +58,7 @@ nlohmann::json StopSwitch::resume() {
     if (obstacle_) return {{"error", *obstacle_}};
     set(false, "");
   }
-  spdlog::warn("resumed");
+  log_about({.stage = "stop", .message_id = message_id::resumed}, spdlog::level::warn, "resumed");
   return {{"stopped", false}};
 }
 
@@ -61,7 +68,7 @@ void StopSwitch::hold(std::string reason, std::string obstacle) {
     set(true, reason);
     obstacle_ = std::move(obstacle);
   }
-  spdlog::warn("stopped: {}", reason);
+  say_stopped(reason);
 }
 
 void StopSwitch::release() {

@@ -5,6 +5,7 @@
 
 #include "cli/roff.hpp"
 #include "config/key.hpp"
+#include "config/reload.hpp"
 
 namespace telehug {
 namespace {
@@ -24,7 +25,7 @@ what differs from the defaults.
 A daemon does not start with a faulty configuration.
 )";
 
-std::string keys_text(const std::vector<Key>& keys) {
+std::string keys_text(const std::vector<Key>& keys, const LiveKeys& live) {
   std::string text;
   std::string_view section;
   for (const Key& key : keys) {
@@ -34,7 +35,8 @@ std::string keys_text(const std::vector<Key>& keys) {
     std::string note = key.unit.empty() ? limits : fmt::format("{} {}", limits, key.unit);
     if (limits.empty()) note = key.unit;
     text += roff_item(fmt::format("{} = {}", key.name, toml_text(key.target)),
-                      fmt::format("{}{}", key.help, note.empty() ? "" : fmt::format(" ({})", note)));
+                      fmt::format("{}{}{}", key.help, note.empty() ? "" : fmt::format(" ({})", note),
+                                  is_live(key.path(), live) ? " [reload]" : ""));
   }
   return text;
 }
@@ -51,13 +53,16 @@ std::string files_text(std::string_view side) {
   return text;
 }
 
-std::string page(std::string_view side, const std::vector<Key>& keys, std::string_view date) {
+std::string page(std::string_view side, const std::vector<Key>& keys, const LiveKeys& live, std::string_view date) {
   std::string text = roff_title(fmt::format("telehug-{}.toml", side), 5, date);
   text += fmt::format(".SH NAME\ntelehug\\-{0}.toml \\- configuration of telehug\\-{0}\n", side);
   text += fmt::format(".SH SYNOPSIS\n.I {}\n", roff(fmt::format("/etc/telehug/{}.toml", side)));
   text += fmt::format(".SH DESCRIPTION\nWhat\n.BR telehug\\-{} (1)\ndoes, and with what.\n", side);
   text += form;
-  text += ".SH KEYS\nEach is shown at its default.\n" + keys_text(keys);
+  text +=
+      ".SH KEYS\nEach is shown at its default. A reload (SIGHUP) takes over those marked [reload]; all others need a "
+      "restart.\n" +
+      keys_text(keys, live);
   text += files_text(side);
   text += checks;
   text += fmt::format(".SH SEE ALSO\n.BR telehug\\-{} (1),\n.BR telehug (1),\n.BR telehug (7)\n", side);
@@ -69,10 +74,10 @@ std::string page(std::string_view side, const std::vector<Key>& keys, std::strin
 std::string config_page(Side side, std::string_view date) {
   if (side == Side::active) {
     ActiveConfig defaults;
-    return page("active", keys_of(defaults), date);
+    return page("active", keys_of(defaults), live_keys(side), date);
   }
   PassiveConfig defaults;
-  return page("passive", keys_of(defaults), date);
+  return page("passive", keys_of(defaults), live_keys(side), date);
 }
 
 }  // namespace telehug

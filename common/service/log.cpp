@@ -5,29 +5,21 @@
 #include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/sinks/stdout_sinks.h>
 #include <sys/stat.h>
+#include <systemd/sd-journal.h>
 #include <unistd.h>
 
 #include <cstdlib>
 #include <memory>
 
+#include "service/journal_sink.hpp"
+
 namespace telehug {
 namespace {
 
-// The priorities of sd-daemon(3).
-char journal_priority(spdlog::level::level_enum level) {
-  switch (level) {
-    case spdlog::level::critical:
-      return '2';
-    case spdlog::level::err:
-      return '3';
-    case spdlog::level::warn:
-      return '4';
-    case spdlog::level::info:
-      return '6';
-    default:
-      return '7';
-  }
-}
+// Where journald listens (sd_journal_send(3)).
+constexpr const char* journal_socket = "/run/systemd/journal/socket";
+
+thread_local const LogFields* fields_of_this_thread = nullptr;
 
 class PriorityFlag final : public spdlog::custom_flag_formatter {
  public:
@@ -51,7 +43,7 @@ bool stderr_is_the_journal() {
 }
 
 LogStyle style_of_stderr() {
-  if (stderr_is_the_journal()) return LogStyle::journal;
+  if (stderr_is_the_journal()) return access(journal_socket, W_OK) == 0 ? LogStyle::fields : LogStyle::journal;
   return isatty(STDERR_FILENO) == 1 ? LogStyle::terminal : LogStyle::plain;
 }
 
@@ -61,7 +53,9 @@ void set_up_log(std::string_view level, LogStyle style) {
   if (style == LogStyle::automatic) style = style_of_stderr();
   std::shared_ptr<spdlog::sinks::sink> sink;
   auto formatter = std::make_unique<spdlog::pattern_formatter>();
-  if (style == LogStyle::terminal) {
+  if (style == LogStyle::fields) {
+    sink = std::make_shared<JournalSink>(sd_journal_sendv, [] { return fields_of_this_thread; });
+  } else if (style == LogStyle::terminal) {
     sink = std::make_shared<spdlog::sinks::stderr_color_sink_mt>();
     formatter->set_pattern("%H:%M:%S.%e %^%-7l%$ %v");
   } else {
@@ -74,17 +68,28 @@ void set_up_log(std::string_view level, LogStyle style) {
   }
   sink->set_formatter(std::move(formatter));
   auto logger = std::make_shared<spdlog::logger>("telehug", std::move(sink));
-  const auto known = spdlog::level::from_str(std::string(level));
-  // from_str() gives "off" for what it does not know.
-  logger->set_level(known == spdlog::level::off ? spdlog::level::info : known);
   logger->flush_on(spdlog::level::trace);
   spdlog::set_default_logger(std::move(logger));
+  set_log_level(level);
 }
 
-void SayOnChange::say(spdlog::level::level_enum level, std::string_view text) {
+void set_log_level(std::string_view level) {
+  const auto known = spdlog::level::from_str(std::string(level));
+  // from_str() gives "off" for what it does not know.
+  spdlog::set_level(known == spdlog::level::off ? spdlog::level::info : known);
+}
+
+void log_about(const LogFields& fields, spdlog::level::level_enum level, std::string_view text) {
+  // The sink is called before log() returns, on this thread.
+  fields_of_this_thread = &fields;
+  spdlog::log(level, "{}", text);
+  fields_of_this_thread = nullptr;
+}
+
+void SayOnChange::say(spdlog::level::level_enum level, std::string_view text, const LogFields& fields) {
   if (text == last_) return;
   last_ = text;
-  spdlog::log(level, "{}", text);
+  log_about(fields, level, text);
 }
 
 }  // namespace telehug

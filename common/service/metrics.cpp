@@ -31,6 +31,7 @@ void LatencyHistogram::record(Duration duration) noexcept {
   const auto ns = static_cast<std::uint64_t>(std::max<std::int64_t>(signed_ns, 0));
   buckets_[bucket_of(ns)].fetch_add(1, std::memory_order_relaxed);
   count_.fetch_add(1, std::memory_order_relaxed);
+  sum_ns_.fetch_add(ns, std::memory_order_relaxed);
   std::uint64_t longest = max_ns_.load(std::memory_order_relaxed);
   while (ns > longest && !max_ns_.compare_exchange_weak(longest, ns, std::memory_order_relaxed)) {
   }
@@ -59,6 +60,21 @@ LatencyHistogram::Summary LatencyHistogram::summary() const noexcept {
           std::min(percentile_ms(0.99), max_ms), max_ms};
 }
 
+LatencyHistogram::Cumulative LatencyHistogram::cumulative() const noexcept {
+  Cumulative result;
+  std::size_t bucket = 0;
+  for (unsigned i = 0; i < result.steps.size(); ++i) {
+    const std::uint64_t end_ns = std::uint64_t{1} << (Cumulative::first_octave + i);
+    for (; bucket < bucket_of(end_ns); ++bucket)
+      result.count += buckets_[bucket].load(std::memory_order_relaxed);
+    result.steps[i] = {end_ns - 1, result.count};
+  }
+  for (; bucket < buckets_.size(); ++bucket)
+    result.count += buckets_[bucket].load(std::memory_order_relaxed);
+  result.sum_ns = sum_ns_.load(std::memory_order_relaxed);
+  return result;
+}
+
 Counter& MetricsRegistry::counter(const std::string& name) {
   const std::lock_guard lock(mutex_);
   auto& entry = counters_[name];
@@ -79,6 +95,14 @@ nlohmann::json MetricsRegistry::counters_json() const {
   for (const auto& [name, counter] : counters_)
     json[name] = counter->value();
   return json;
+}
+
+std::map<std::string, const LatencyHistogram*> MetricsRegistry::latencies() const {
+  const std::lock_guard lock(mutex_);
+  std::map<std::string, const LatencyHistogram*> all;
+  for (const auto& [stage, histogram] : latencies_)
+    all[stage] = histogram.get();
+  return all;
 }
 
 nlohmann::json MetricsRegistry::latencies_json() const {

@@ -38,12 +38,27 @@ class LatencyHistogram {
     double max_ms = 0;  // exact
   };
 
+  // How many records were not longer than each of some times, from 16 us to a second in steps of two. Exact: a step is
+  // the last nanosecond of an octave.
+  struct Cumulative {
+    struct Step {
+      std::uint64_t up_to_ns = 0;
+      std::uint64_t count = 0;
+    };
+    static constexpr unsigned first_octave = 14;
+    static constexpr unsigned last_octave = 30;
+    std::array<Step, last_octave - first_octave + 1> steps{};
+    std::uint64_t count = 0;  // of all records
+    std::uint64_t sum_ns = 0;
+  };
+
   void record(Duration duration) noexcept;
 
   // `share` 0..1: the duration that this share of all records does not exceed; 0 without records.
   [[nodiscard]] double percentile_ms(double share) const noexcept;
   // Writers may go on meanwhile: then the parts may differ by the few records that came in between.
   [[nodiscard]] Summary summary() const noexcept;
+  [[nodiscard]] Cumulative cumulative() const noexcept;
 
   static constexpr double largest_relative_error = 1.0 / 32;
 
@@ -57,6 +72,7 @@ class LatencyHistogram {
 
   std::array<std::atomic<std::uint64_t>, bucket_count> buckets_{};
   std::atomic<std::uint64_t> count_{0};
+  std::atomic<std::uint64_t> sum_ns_{0};
   std::atomic<std::uint64_t> max_ns_{0};
 };
 
@@ -71,6 +87,8 @@ class MetricsRegistry {
   [[nodiscard]] nlohmann::json counters_json() const;
   // {stage: {"p50":, "p99":, "max":, "count":}} in ms, without stages that have no record yet
   [[nodiscard]] nlohmann::json latencies_json() const;
+  // Every stage with its histogram, by name; these live as long as the registry.
+  [[nodiscard]] std::map<std::string, const LatencyHistogram*> latencies() const;
 
  private:
   mutable std::mutex mutex_;  // guards the maps, not what they hold

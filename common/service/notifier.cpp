@@ -28,6 +28,10 @@ void Notifier::ready() const {
   tell("READY=1");
 }
 
+void Notifier::reloading(Timestamp now) const {
+  tell("RELOADING=1\nMONOTONIC_USEC=" + std::to_string(to_ns(now) / 1000));
+}
+
 void Notifier::status(std::string_view sentence) const {
   std::string line(sentence);
   // A line break would begin another assignment.

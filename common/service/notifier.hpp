@@ -15,7 +15,10 @@ class Notifier {
   // Reads how often systemd wants to hear from this process ($WATCHDOG_USEC).
   Notifier();
 
+  // Again after reloading().
   void ready() const;
+  // What `systemctl reload` waits for to be over; also as Type=notify-reload wants it.
+  void reloading(Timestamp now) const;
   void status(std::string_view sentence) const;  // shown by `systemctl status`
   void stopping() const;
 

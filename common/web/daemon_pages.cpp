@@ -4,6 +4,7 @@
 #include <spdlog/spdlog.h>
 
 #include "service/control_socket.hpp"
+#include "service/log.hpp"
 
 namespace telehug {
 
@@ -24,13 +25,13 @@ DaemonPages::DaemonPages(const WebConfig& config, const DaemonPagesOptions& opti
       control.ask(std::move(request), std::move(answered));
     };
     try {
-      server_ = std::make_unique<WebServer>(
-          WebServerOptions{.port = static_cast<std::uint16_t>(config.port)},
-          WebSiteOptions{"telehug-" + side_name(side_), options.commands, options.topics, options.pictures},
-          WebFiles({shared_pages(), options.files}), ask, clock);
+      server_ = std::make_unique<WebServer>(WebServerOptions{.port = static_cast<std::uint16_t>(config.port)},
+                                            WebSiteOptions{"telehug-" + side_name(side_), options.commands,
+                                                           options.topics, options.pictures, config.metrics},
+                                            WebFiles({shared_pages(), options.files}), ask, clock);
     } catch (const std::runtime_error& problem) {
       problem_ = problem.what();
-      spdlog::error("{}", problem_);
+      log_about({.stage = "web"}, spdlog::level::err, problem_);
     }
   }
   control.on("open", [this](const Json&) { return open(); });

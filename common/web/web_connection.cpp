@@ -8,6 +8,8 @@
 #include <boost/beast/http/write.hpp>
 #include <utility>
 
+#include "service/open_metrics.hpp"
+
 namespace telehug {
 namespace asio = boost::asio;
 namespace http = boost::beast::http;
@@ -133,13 +135,14 @@ void WebConnection::received(const boost::system::error_code& problem) {
   keep_alive_ = message.keep_alive();
   WebReply reply = host_.reply(request_of(message));
   known_ = reply.known;
+  // Who is not known has to come again.
+  if (!known_) keep_alive_ = false;
   if (auto* ready = std::get_if<WebAnswer>(&reply.what)) {
-    // Who is not known has to come again.
-    if (!known_) keep_alive_ = false;
     answer(std::move(*ready));
   } else if (auto* command = std::get_if<WebCommand>(&reply.what)) {
     arm(host_.options().answer_timeout);
     awaits_command_ = true;
+    asks_for_metrics_ = command->metrics;
     host_.ask(std::move(command->request), shared_from_this());
   } else {
     begin_stream(std::get<WebStream>(reply.what));
@@ -178,7 +181,20 @@ void WebConnection::answer(WebAnswer answer) {
 
 void WebConnection::answer_command(const nlohmann::json& said) {
   if (closed_ || !std::exchange(awaits_command_, false)) return;
+  if (asks_for_metrics_) {
+    answer_metrics(said);
+    return;
+  }
   answer({200, "application/json", said.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace), {}});
+}
+
+void WebConnection::answer_metrics(const nlohmann::json& said) {
+  const auto text = said.find("openmetrics");
+  if (text == said.end() || !text->is_string()) {
+    answer(WebSite::refusal(503, "the daemon tells no metrics"));
+  } else {
+    answer({200, std::string(open_metrics_type), text->get<std::string>(), {}});
+  }
 }
 
 void WebConnection::written(const boost::system::error_code& problem) {

@@ -60,6 +60,7 @@ class WebConnection : public std::enable_shared_from_this<WebConnection> {
   void received(const boost::system::error_code& problem);
   void refuse(const boost::system::error_code& problem);
   void answer(WebAnswer answer);
+  void answer_metrics(const nlohmann::json& said);
   void written(const boost::system::error_code& problem);
   void begin_stream(const WebStream& stream);
   void notice_end();
@@ -75,6 +76,7 @@ class WebConnection : public std::enable_shared_from_this<WebConnection> {
   bool known_ = false;
   bool keep_alive_ = false;
   bool awaits_command_ = false;
+  bool asks_for_metrics_ = false;
   bool closed_ = false;
 
   bool streaming_ = false;

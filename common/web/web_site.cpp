@@ -56,6 +56,7 @@ WebReply WebSite::reply(const WebRequest& request, std::uint16_t port, Timestamp
   if (const auto refused = refusal_of(request, port)) return {refusal(refused->status, refused->why)};
   const bool get = request.method == "GET";
   if (get && request.path == enter_path) return {enter(request, now)};
+  if (get && options_.metrics && request.path == "/metrics") return {WebCommand{{{"command", "metrics"}}, true}};
   if (!entrance_.knows(cookie_value(request.cookie, options_.cookie), now))
     return {shut_door(request, 401, "door.no_session")};
   if (request.path == "/command" && !get) return {command(request), true};

@@ -7,7 +7,8 @@
 //   GET  /live?topics=a,b       server-sent events: the newest of these topics, and what they become
 //   GET  /picture/NAME          the newest of a live picture, as a JPEG; 204 if there is none at present
 //   POST /command               a request as on the local socket (common/ctl/README.md), of those that pages may send
-// All but the first need the session's cookie, and pass request_rules.hpp before.
+//   GET  /metrics               if switched on: counters and latencies as OpenMetrics text, without a cookie
+// All but the first and the last need the session's cookie, and all pass request_rules.hpp before.
 #pragma once
 
 #include <functional>
@@ -40,6 +41,7 @@ struct WebAnswer {
 // To be answered with what the daemon says to it.
 struct WebCommand {
   nlohmann::json request;
+  bool metrics = false;  // of what the daemon says, the metrics' text alone is the answer
 };
 struct WebStream {
   std::vector<std::string> topics;
@@ -59,6 +61,7 @@ struct WebSiteOptions {
   std::set<std::string> commands;                    // that pages may send
   std::set<std::string> topics;                      // that they may follow
   std::map<std::string, LivePicture> pictures = {};  // by the names that pages ask for
+  bool metrics = false;                              // served, to whoever on this PC asks
 };
 
 class WebSite {

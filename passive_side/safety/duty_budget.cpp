@@ -31,10 +31,20 @@ void DutyBudget::run(double strength, Duration time, Timestamp now) noexcept {
 double DutyBudget::most(Timestamp now) noexcept {
   if (!limited_) return 1;
   slide(now);
-  const double left_s = budget_s_ - std::accumulate(used_s_.begin(), used_s_.end(), 0.0);
+  const double left_s = budget_s_ - used_s();
   // A command must never outlast what is left.
   const double fades_s = std::max(seconds(longest_command), budget_s_ * share_that_fades);
   return std::clamp(left_s / fades_s, 0.0, 1.0);
+}
+
+double DutyBudget::used(Timestamp now) noexcept {
+  if (!limited_) return 0;
+  slide(now);
+  return std::min(used_s() / budget_s_, 1.0);
+}
+
+double DutyBudget::used_s() const noexcept {
+  return std::accumulate(used_s_.begin(), used_s_.end(), 0.0);
 }
 
 // A clock that goes back takes nothing out of the window: all parts just get earlier numbers.

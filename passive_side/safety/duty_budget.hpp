@@ -28,10 +28,13 @@ class DutyBudget {
   // The strongest that a command of at most 250 ms may be now, 0..1. All of it until a fifth of the budget is left;
   // then what is left shrinks more and more slowly, so that a touch that lasts fades instead of breaking off.
   [[nodiscard]] double most(Timestamp now) noexcept;
+  // The share of the budget that is used up now; 0 if nothing is limited.
+  [[nodiscard]] double used(Timestamp now) noexcept;
 
  private:
   static constexpr std::size_t parts = 64;
 
+  [[nodiscard]] double used_s() const noexcept;
   void slide(Timestamp now) noexcept;
 
   bool limited_;

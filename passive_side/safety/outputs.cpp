@@ -286,6 +286,13 @@ Refused Outputs::running() const {
   return ids;
 }
 
+DutyReports Outputs::duties(Timestamp now) {
+  DutyReports reports;
+  for (Motor& motor : motors_)
+    reports.push_back({motor.id, motor.duty.used(now)});
+  return reports;
+}
+
 HeaterReports Outputs::heaters(const std::optional<JacketTelemetry>& telemetry, Timestamp now) const {
   HeaterReports reports;
   for (const Heater& heater : heaters_) {

@@ -58,6 +58,8 @@ class Outputs {
   [[nodiscard]] bool runs(std::uint8_t id) const noexcept;
   // Ids, in the profile's order.
   [[nodiscard]] Refused running() const;
+  // How much of their duty's budget the motors have used up.
+  [[nodiscard]] DutyReports duties(Timestamp now);
   [[nodiscard]] HeaterReports heaters(const std::optional<JacketTelemetry>& telemetry, Timestamp now) const;
 
  private:

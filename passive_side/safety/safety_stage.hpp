@@ -69,6 +69,7 @@ class SafetyStage {
 
   // Ids of the actuators that run, in the profile's order.
   [[nodiscard]] Refused running() const { return outputs_.running(); }
+  [[nodiscard]] DutyReports duties() { return outputs_.duties(now_); }
   [[nodiscard]] HeaterReports heaters() const { return outputs_.heaters(link_->status().telemetry, now_); }
 
  private:

@@ -58,6 +58,13 @@ struct SafetyCounters {
   std::uint64_t off_clock_jumped = 0;
 };
 
+// Of one motor: the share of its duty's budget that is used up.
+struct DutyReport {
+  std::uint8_t id = 0;
+  double used = 0;  // 0..1
+};
+using DutyReports = boost::container::static_vector<DutyReport, max_actuators>;
+
 // What became of one apply().
 struct SafetyVerdict {
   FeltOutcome outcome =

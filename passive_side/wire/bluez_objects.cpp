@@ -10,6 +10,8 @@
 namespace telehug {
 namespace {
 
+constexpr std::uint64_t patience_us = 2'000'000;
+
 // Everything that is asked of an object's properties; what another type has is left as it is.
 struct Properties {
   std::string address;
@@ -110,6 +112,21 @@ std::optional<BluezObjects> read_bluez_objects(sd_bus_message* answer) {
   while (enter(answer, SD_BUS_TYPE_DICT_ENTRY, "oa{sa{sv}}"))
     if (!read_object(answer, objects) || !leave(answer)) return std::nullopt;
   return objects;
+}
+
+Result<BluezObjects> ask_bluez(const std::string& bus_address) {
+  auto bus = connect_to_system_bus(bus_address);
+  if (!bus) return bus.error();
+  const BusMessage call = bluez_objects_call(bus->get());
+  sd_bus_message* made = nullptr;
+  sd_bus_error failure = SD_BUS_ERROR_NULL;
+  const int code = sd_bus_call(bus->get(), call.get(), patience_us, &failure, &made);
+  const BusMessage answer(made);
+  sd_bus_error_free(&failure);
+  if (code >= 0) {
+    if (auto objects = read_bluez_objects(answer.get())) return *std::move(objects);
+  }
+  return Error{"BlueZ does not answer; install it (package bluez) and start it: `systemctl start bluetooth`"};
 }
 
 bool means_no_bluez(const sd_bus_error& error) {

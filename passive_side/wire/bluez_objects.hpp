@@ -3,6 +3,7 @@
 // What BlueZ, the system's Bluetooth service, tells of adapters and devices (org.bluez on the system bus).
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -33,6 +34,9 @@ struct BluezObjects {
 // The call that asks for them, and its answer; empty if it is an error or something else.
 [[nodiscard]] BusMessage bluez_objects_call(sd_bus* bus);
 [[nodiscard]] std::optional<BluezObjects> read_bluez_objects(sd_bus_message* answer);
+
+// Waits for BlueZ, 2 s at most. `bus_address` empty: the system bus. The error says what to do after a semicolon.
+[[nodiscard]] Result<BluezObjects> ask_bluez(const std::string& bus_address = "");
 
 // Whether the error of a call to BlueZ means that there is no BlueZ.
 [[nodiscard]] bool means_no_bluez(const sd_bus_error& error);

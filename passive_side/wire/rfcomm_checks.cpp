@@ -4,30 +4,9 @@
 #include <fmt/core.h>
 #include <unistd.h>
 
-#include "bus/bus_connection.hpp"
 #include "wire/bluez_objects.hpp"
 
 namespace telehug {
-namespace {
-
-constexpr std::uint64_t patience_us = 2'000'000;
-
-Result<BluezObjects> ask_bluez(const std::string& bus_address) {
-  auto bus = connect_to_system_bus(bus_address);
-  if (!bus) return bus.error();
-  const BusMessage call = bluez_objects_call(bus->get());
-  sd_bus_message* made = nullptr;
-  sd_bus_error failure = SD_BUS_ERROR_NULL;
-  const int code = sd_bus_call(bus->get(), call.get(), patience_us, &failure, &made);
-  const BusMessage answer(made);
-  sd_bus_error_free(&failure);
-  if (code >= 0) {
-    if (auto objects = read_bluez_objects(answer.get())) return *std::move(objects);
-  }
-  return Error{"BlueZ does not answer; install it (package bluez) and start it: `systemctl start bluetooth`"};
-}
-
-}  // namespace
 
 std::vector<RfcommCheck> check_rfcomm(const RfcommPeer& peer, RfcommSockets& sockets, const std::string& bus_address) {
   std::vector<RfcommCheck> checks;

@@ -19,6 +19,12 @@ telehug_test(test_app_stop KIND integration SUBJECT ops
   SOURCES integration/app/stop_test.cpp DEPS running_pair)
 telehug_test(test_app_consent KIND integration SUBJECT jacket
   SOURCES integration/app/consent_test.cpp DEPS running_pair)
+telehug_test(test_app_metrics KIND integration SUBJECT ops
+  SOURCES integration/app/metrics_test.cpp DEPS running_pair telehug_daemon)
+telehug_test(test_app_log KIND integration SUBJECT ops
+  SOURCES integration/app/log_test.cpp DEPS running_pair)
+telehug_test(test_app_reload KIND integration SUBJECT ops
+  SOURCES integration/app/reload_test.cpp DEPS running_pair)
 telehug_test(test_app_pages KIND integration SUBJECT web
   SOURCES integration/app/pages_test.cpp DEPS running_pair)
 telehug_test(test_app_fingers_on_pages KIND integration SUBJECT web

@@ -12,4 +12,7 @@ function(telehug_system_test name)
 endfunction()
 
 add_custom_target(system_tests)
+# What is in the packages.
+add_dependencies(system_tests telehug telehug-active telehug-passive telehug-jacket-sim telehug_jacket_firmware
+  telehug_references)
 telehug_system_test(test_gpio_lines SOURCES system/gpio_lines_test.cpp DEPS passive_gpio fmt::fmt)

@@ -3,6 +3,9 @@ telehug_test(test_pictures KIND unit SUBJECT touch
   SOURCES doubles/allocation_counter.cpp unit/pictures/jpeg_decoder_test.cpp unit/pictures/jpeg_rows_test.cpp
     unit/pictures/picture_file_test.cpp
   DEPS telehug_pictures PkgConfig::libjpeg fmt::fmt)
+telehug_test(test_light_meter KIND unit SUBJECT touch
+  SOURCES unit/capture/light_meter_test.cpp
+  DEPS active_capture)
 telehug_test(test_capture KIND unit SUBJECT touch
   SOURCES unit/capture/camera_setup_test.cpp unit/capture/camera_tuning_test.cpp
     unit/capture/frame_check_rows_test.cpp unit/capture/frame_check_test.cpp doubles/allocation_counter.cpp

@@ -46,7 +46,8 @@ telehug_test(test_qr_code KIND unit SUBJECT link
   DEPS telehug_pairing_link PkgConfig::zxing)
 
 telehug_test(test_membership KIND unit SUBJECT link
-  SOURCES unit/daemon/connections_test.cpp unit/daemon/hug_request_test.cpp unit/daemon/membership_test.cpp unit/daemon/pairing_run_test.cpp
+  SOURCES unit/daemon/config_reload_test.cpp unit/daemon/connections_test.cpp unit/daemon/hug_request_test.cpp unit/daemon/membership_test.cpp unit/daemon/metric_table_test.cpp
+          unit/daemon/pairing_run_test.cpp
   DEPS telehug_daemon)
 
 telehug_test(test_link_keeper KIND unit SUBJECT link

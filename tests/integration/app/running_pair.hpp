@@ -50,6 +50,8 @@ class RunningPair {
   std::string jacket_link;
   std::vector<std::string> jacket_options;  // of telehug-jacket-sim, such as --board
   bool loopback_only = true;
+  std::filesystem::path active_config = "/dev/null";  // --config
+  std::filesystem::path passive_config = "/dev/null";
   std::vector<std::string> active_settings;  // SECTION.KEY=VALUE
   std::vector<std::string> passive_settings;
   // What stands before a daemon's command line, such as env and its variables.

@@ -35,6 +35,7 @@ class Doctor : public testing::Test {
     edid[68] = static_cast<char>(((520 >> 8) << 4) | (290 >> 8));
     folder.write("root/sys/class/drm/card0-DP-1/edid", edid);
     calibrate(521, 291);
+    folder.write("config/telehug/active.toml", "[body_map]\npicture = \"chat.jpg\"\n");
     folder.write("config/telehug/passive.toml", "[jacket]\nlink = \"serial:/dev/ttyACM0\"\n");
     fs::create_directories(folder / "state/telehug/pairs/active");
     fs::create_directories(folder / "state/telehug/pairs/passive");
@@ -113,6 +114,7 @@ TEST_F(Doctor, NamesACalibrationOfAnotherMonitor) {
 }
 
 TEST_F(Doctor, NamesASessionWithoutDesktop) {
+  folder.write("config/telehug/active.toml", "");
   display = "";
   expect("active", "fail", "screen", "no desktop", "session of the person");
 }
@@ -148,7 +150,7 @@ TEST_F(Doctor, NamesBluetoothThatIsSwitchedOff) {
 TEST_F(Doctor, NamesAKernelWhoseBluetoothCrashes) {
   folder.write("config/telehug/passive.toml", "[jacket]\nlink = \"rfcomm:00:11:22:33:44:55\"\n");
   folder.write("root/proc/version", "Linux version 6.1.0-56-amd64 (x) #1 SMP Debian 6.1.192-2 (2026-10-01)");
-  expect("passive", "fail", "kernel", "6.1.192-2", "6.1.0-50");
+  expect("passive", "fail", "kernel", "6.1.192", "6.1.0-50");
 }
 
 TEST_F(Doctor, NamesAStateFolderThatOthersMayLookInto) {
@@ -160,6 +162,14 @@ TEST_F(Doctor, NamesAPortThatAnotherProgramHas) {
   // 26660 = 0x6824
   folder.write("root/proc/net/udp", "  sl  local_address\n   1: 00000000:6824 00000000:0000 07\n");
   expect("passive", "warn", "ports", "26660", "ss -ulpn");
+}
+
+TEST_F(Doctor, LooksOnlyAtTheSideThatIsUsedHere) {
+  fs::remove(folder / "config/telehug/active.toml");
+  fs::remove(folder / "state/telehug/rig.toml");
+  EXPECT_THAT(ask("", "ok").dump(), AllOf(HasSubstr("passive: no fault"), testing::Not(HasSubstr("active: no fault"))));
+  fs::remove(folder / "config/telehug/passive.toml");  // nothing tells which: what is installed
+  EXPECT_THAT(ask("", "ok").dump(), AllOf(HasSubstr("passive: no fault"), HasSubstr("active: no fault")));
 }
 
 TEST_F(Doctor, NamesAMissingPair) {

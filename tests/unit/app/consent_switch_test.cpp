@@ -5,6 +5,7 @@
 
 #include <fstream>
 
+#include "config/quiet_hours_text.hpp"
 #include "consent_file.hpp"
 #include "doubles/temporary_folder.hpp"
 #include "unit/jacket/jacket_builders.hpp"
@@ -44,6 +45,21 @@ TEST_F(TheConsentSwitch, pauses_until_further_notice_or_for_some_minutes) {
   consent.pause(Json::object(), noon);
   EXPECT_EQ(consent.unpause(), Json({{"side", "passive"}, {"paused", false}}));
   EXPECT_EQ(refusal(consent), std::nullopt);
+}
+
+TEST_F(TheConsentSwitch, follows_quiet_hours_that_the_configuration_changes_and_keeps_the_wearers_own) {
+  consent.quiet({{"hours", "20:00-21:00"}});
+  (void)consent.take();
+  consent.set_configured_quiet_hours(parse_quiet_hours("11:00-13:00").value());
+  EXPECT_EQ(refusal(consent), FeltOutcome::quiet_hours);
+  const auto told = consent.take();
+  ASSERT_TRUE(told);
+  EXPECT_EQ(quiet_hours_text(told->quiet_hours), "11:00-13:00");
+  EXPECT_EQ(quiet_hours_text(told->own_quiet_hours), "20:00-21:00");
+  consent.pause(Json::object(), noon);
+  EXPECT_EQ(quiet_hours_text(consent.take()->quiet_hours), "11:00-13:00");
+  consent.set_configured_quiet_hours({});
+  EXPECT_EQ(refusal(consent), FeltOutcome::paused) << "the wearer's pause is not ended by a configuration";
 }
 
 TEST_F(TheConsentSwitch, lowers_the_strength_and_keeps_it) {

@@ -216,6 +216,20 @@ TEST_F(AWebcam, UsesItsOwnClockWhenTheKernelsTimeIsNoMonotonicOne) {
   EXPECT_EQ(frame_.time, clock_.now());
 }
 
+TEST_F(AWebcam, ThatDeliversNothingAnyMoreIsLostAndSetUpAgain) {
+  ASSERT_TRUE(webcam_.open());
+  ASSERT_EQ(read_one(jpeg()), ReadOutcome::frame);
+  EXPECT_EQ(webcam_.read(frame_, 4900ms), ReadOutcome::timeout);
+  ASSERT_EQ(read_one(jpeg()), ReadOutcome::frame);
+  EXPECT_EQ(webcam_.read(frame_, 4900ms), ReadOutcome::timeout);
+  EXPECT_EQ(webcam_.read(frame_, 200ms), ReadOutcome::lost);
+  EXPECT_THAT(webcam_.last_error(), AllOf(HasSubstr("/dev/video0"), HasSubstr("no pictures"), HasSubstr("plug it in")));
+  EXPECT_FALSE(device_.streaming);
+  EXPECT_EQ(webcam_.read(frame_, 600ms), ReadOutcome::timeout);
+  EXPECT_TRUE(device_.streaming);
+  EXPECT_EQ(read_one(jpeg()), ReadOutcome::frame);
+}
+
 TEST_F(AWebcam, IsLostWhenUnpluggedAndComesBackWhenPluggedInAgain) {
   ASSERT_TRUE(webcam_.open());
   ASSERT_EQ(read_one(jpeg()), ReadOutcome::frame);

@@ -32,6 +32,16 @@ TEST(ConfigPage, HasEveryKeyOfThePassiveSideAtItsDefault) {
   expect_every_key<PassiveConfig>(Side::passive);
 }
 
+TEST(ConfigPage, MarksWhatAReloadTakesOver) {
+  const std::string page = config_page(Side::passive, "2026-11-29");
+  const auto item = [&page](const std::string& name) {
+    const auto at = page.find(".B " + roff_argument(name));
+    return at == std::string::npos ? "" : page.substr(at, page.find("\n.", at) - at);
+  };
+  EXPECT_THAT(item("level = \"info\""), testing::EndsWith("[reload]"));
+  EXPECT_THAT(item("max_strength = 1.0"), testing::Not(HasSubstr("[reload]")));
+}
+
 TEST(FilledPage, PutsDateVersionAndExitCodesIn) {
   EXPECT_EQ(filled_page("of @DATE@.", "2026-11-29"), "of 2026-11-29.");
   EXPECT_THAT(filled_page("@EXIT_STATUS@", ""), HasSubstr("revoked"));

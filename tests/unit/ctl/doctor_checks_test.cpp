@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "ctl/doctor_checks.hpp"
+#include "ctl/doctor/checks.hpp"
 
 #include <gmock/gmock.h>
 
@@ -38,15 +38,94 @@ TEST(DoctorChecks, AClockThatIsNotSynchronisedIsToldAndAnUnknownOneIsNot) {
   EXPECT_EQ(check_clock(facts).front().level, Level::ok);
 }
 
-TEST(DoctorChecks, AFirewallThatDropsAndHasNoRuleForTelehugFails) {
+TEST(DoctorChecks, AFirewallIsJudgedByThePortsOfTheDomainAndOnlyIfItMayBeRead) {
   DoctorFacts facts = facts_of(Side::passive);
-  facts.may_read_firewall = true;
-  facts.firewall = "chain input {\n type filter hook input priority filter; policy drop;\n}";
-  EXPECT_EQ(check_firewall(facts).front().level, Level::fail);
-  facts.firewall = *facts.firewall + " udp dport 26650-26679 accept";
+  facts.firewall = Json::parse(R"({"nftables": [
+      {"chain": {"family": "inet", "table": "f", "name": "in", "type": "filter", "hook": "input", "prio": 0,
+                 "policy": "drop"}},
+      {"rule": {"family": "inet", "table": "f", "chain": "in", "expr": [
+          {"match": {"op": "==", "left": {"payload": {"protocol": "udp", "field": "dport"}},
+                     "right": {"range": [26650, 26679]}}},
+          {"accept": null}]}}]})");
   EXPECT_EQ(check_firewall(facts).front().level, Level::ok);
-  facts.may_read_firewall = false;
+  facts.sides[0].domain = 78;
+  EXPECT_EQ(check_firewall(facts).front().level, Level::fail);
+  EXPECT_THAT(check_firewall(facts).front().fix, HasSubstr("26900 to 26929"));
+  facts.sides[0].loopback_only = true;
+  EXPECT_TRUE(check_firewall(facts).empty());
+  facts.sides[0].loopback_only = false;
+  facts.firewall_is_secret = true;
   EXPECT_THAT(check_firewall(facts).front().fix, HasSubstr("sudo"));
+}
+
+TEST(DoctorChecks, RulesOfTheOldIptablesAreNotTakenForJudged) {
+  DoctorFacts facts = facts_of(Side::passive);
+  facts.legacy_firewall = true;
+  EXPECT_EQ(check_firewall(facts).front().level, Level::warn);
+}
+
+TEST(DoctorChecks, TheAccountOfAServiceIsNotToldToLogIn) {
+  DoctorFacts facts = facts_of(Side::passive);
+  facts.serial_port = "/dev/a";
+  facts.serial_ports = {{"/dev/a", false}};
+  facts.sides[0].account = {"telehug", false, true};
+  EXPECT_EQ(check_serial(facts).front().fix,
+            "sudo usermod -aG dialout telehug, then sudo systemctl restart telehug-passive");
+  facts.sides[0].account = {"mia", true, false};
+  EXPECT_EQ(check_serial(facts).front().fix, "sudo usermod -aG dialout mia, then log in again");
+  // Whoever asks: the daemon has it.
+  facts.daemons.push_back(Json{{"side", "passive"}});
+  EXPECT_EQ(check_serial(facts).front().level, Level::ok);
+}
+
+TEST(DoctorChecks, AUnitIsToldWithTheCommandThatMendsIt) {
+  DoctorFacts facts = facts_of(Side::active);
+  auto& unit = facts.sides[0].units.emplace_back();
+  EXPECT_TRUE(check_units(facts).empty());  // there is none
+  unit = {"telehug-active.service", true, "loaded", "inactive", "disabled", "success", 0};
+  EXPECT_EQ(check_units(facts).front().fix, "systemctl --user enable --now telehug-active.service");
+  unit.enabled = "enabled";
+  EXPECT_EQ(check_units(facts).front().fix, "systemctl --user start telehug-active.service");
+  unit.active = "activating";
+  unit.restarts = 3;
+  unit.result = "watchdog";
+  EXPECT_EQ(check_units(facts).front().level, Level::fail);
+  EXPECT_THAT(check_units(facts).front().what, HasSubstr("watchdog"));
+  unit.active = "active";
+  EXPECT_EQ(check_units(facts).front().level, Level::ok);
+  unit.enabled = "disabled";
+  EXPECT_EQ(check_units(facts).front().fix, "systemctl --user enable telehug-active.service");
+}
+
+TEST(DoctorChecks, OfTheActiveSidesTwoUnitsTheIdleOneIsNotMissed) {
+  DoctorFacts facts = facts_of(Side::active);
+  facts.sides[0].units = {{"telehug-active.service", true, "loaded", "active", "enabled", "success", 0},
+                          {"telehug-active.service", false, "loaded", "inactive", "disabled", "success", 0}};
+  EXPECT_EQ(check_units(facts).size(), 1U);
+}
+
+TEST(DoctorChecks, LightIsJudgedByWhatTheCameraMeasures) {
+  DoctorFacts facts = facts_of(Side::active);
+  LightFacts& light = facts.light.emplace();
+  light.mean = 0.4;
+  light.asked_hz = 30;
+  light.rate_hz = 29;
+  EXPECT_EQ(check_light(facts).front().level, Level::ok);
+  facts.light->rate_hz = 15;
+  EXPECT_THAT(check_light(facts).front().what, HasSubstr("15.0 pictures a second instead of 30"));
+  facts.light->rate_hz = 30;
+  facts.light->flicker = 0.2;
+  EXPECT_THAT(check_light(facts).front().fix, HasSubstr("camera.power_line_hz"));
+  facts.light->problem = "another program uses it";
+  EXPECT_EQ(check_light(facts).front().level, Level::fail);
+  EXPECT_THAT(check_light(facts).front().what, HasSubstr("another program uses it"));
+}
+
+TEST(DoctorChecks, AMonitorWithoutSizeIsNoTroubleOnceItWasMeasured) {
+  DoctorFacts facts = facts_of(Side::active);
+  EXPECT_EQ(check_monitor(facts).front().level, Level::warn);
+  facts.configured_screen_width_mm = 520;
+  EXPECT_EQ(check_monitor(facts).front().level, Level::ok);
 }
 
 TEST(DoctorChecks, APairThatEndsSoonIsToldBeforeItDoes) {
@@ -62,6 +141,7 @@ TEST(DoctorChecks, APairThatEndsSoonIsToldBeforeItDoes) {
 TEST(DoctorChecks, WhatADaemonComplainsOfIsToldWithItsOwnFix) {
   DoctorFacts facts = facts_of(Side::active);
   facts.daemons.push_back(Json{{"side", "active"},
+                               {"state", "fault"},
                                {"peer", {{"connected", false}}},
                                {"problems", {{{"what", "too dark"}, {"do", "turn on a light"}}}}});
   const Findings findings = check_daemons(facts);
@@ -69,6 +149,8 @@ TEST(DoctorChecks, WhatADaemonComplainsOfIsToldWithItsOwnFix) {
   EXPECT_EQ(findings[0].fix, "turn on a light");
   EXPECT_EQ(findings[1].check, "peer");
   EXPECT_EQ(findings[1].level, Level::warn);
+  facts.daemons[0]["state"] = "waiting";
+  EXPECT_EQ(check_daemons(facts)[0].level, Level::warn);
 }
 
 TEST(DoctorChecks, AnOldFirmwareIsToldWithTheCommandThatReplacesIt) {
@@ -76,6 +158,8 @@ TEST(DoctorChecks, AnOldFirmwareIsToldWithTheCommandThatReplacesIt) {
   facts.daemons.push_back(Json{{"side", "passive"}, {"jacket", {{"firmware", 2}}}});
   EXPECT_THAT(check_daemons(facts).back().fix, HasSubstr("telehug jacket flash"));
   facts.daemons[0]["jacket"]["firmware"] = newest_firmware;
+  EXPECT_EQ(check_daemons(facts).back().level, Level::ok);
+  facts.daemons[0]["jacket"]["firmware"] = 0;  // it answers nothing
   EXPECT_NE(check_daemons(facts).back().check, "firmware");
 }
 

@@ -81,6 +81,13 @@ TEST(StatusText, TellsOfEveryHeaterInOneLine) {
                               "  heater       back: no reading, off: it was too hot\n"));
 }
 
+TEST(StatusText, TellsOfMotorsThatHaveUsedUpSomeOfTheirDuty) {
+  const auto motor = [](int id, double used) { return Json{{"id", id}, {"used", used}}; };
+  const std::string text = status_text({{"duty", {motor(1, 0), motor(3, 0.254), motor(5, 1)}}});
+  EXPECT_THAT(text, HasSubstr("  duty used    motor 3 25 %, motor 5 100 %\n"));
+  EXPECT_THAT(status_text({{"duty", {motor(1, 0)}}}), Not(HasSubstr("duty")));
+}
+
 TEST(StatusText, SaysWhyNothingIsFelt) {
   const std::string text =
       status_text({{"consent", {{"name", "paused"}, {"why", "until 15:30"}, {"muted_boxes", {8}}}}});
@@ -116,8 +123,8 @@ TEST(StatusText, BearsPartsOfAnyType) {
                                  Json::array({1, "a", nullptr}),
                                  Json::object(),
                                  Json{{"connected", "perhaps"}, {"open", 3}, {"p50", {1}}}};
-  const std::vector<std::string> names{"side",   "state",  "version", "uptime_s", "problems",   "peer",      "peers",
-                                       "camera", "jacket", "heaters", "counters", "latency_ms", "last_touch"};
+  const std::vector<std::string> names{"side",   "state",  "version", "uptime_s", "problems",   "peer",       "peers",
+                                       "camera", "jacket", "heaters", "counters", "latency_ms", "last_touch", "duty"};
   std::mt19937 random(3);
   for (int round = 0; round < 2000; ++round) {
     Json status = Json::object();

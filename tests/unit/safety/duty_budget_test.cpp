@@ -54,6 +54,20 @@ TEST(DutyBudget, lets_a_motor_run_at_full_strength_until_a_fifth_is_left_then_fa
   EXPECT_LT(last, 0.05);
 }
 
+TEST(DutyBudget, tells_the_share_that_is_used_up_and_none_without_a_limit) {
+  const Timestamp start = from_ns(5'000'000'000);
+  DutyBudget budget(0.5, 10s);
+  EXPECT_EQ(budget.used(start), 0);
+  budget.run(0.5, 1s, start + 1s);
+  EXPECT_NEAR(budget.used(start + 1s), 0.1, 1e-9);
+  budget.run(1, 20s, start + 2s);
+  EXPECT_EQ(budget.used(start + 2s), 1) << "never more than all of it";
+  EXPECT_EQ(budget.used(start + 30s), 0);
+  DutyBudget unlimited(1, 10s);
+  unlimited.run(1, 10s, start);
+  EXPECT_EQ(unlimited.used(start), 0);
+}
+
 TEST(DutyBudget, recovers_as_the_window_slides) {
   RunningMotor motor(0.5, 10s);
   for (int i = 0; i < 900; ++i)

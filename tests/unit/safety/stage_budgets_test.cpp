@@ -51,6 +51,20 @@ TEST_F(SafetyStageWithBudgets, weakens_a_motor_whose_duty_is_used_up_then_answer
   EXPECT_EQ(drive(3), FeltOutcome::driven) << "the others have budgets of their own";
 }
 
+TEST_F(SafetyStageWithBudgets, tells_how_much_of_its_duty_each_motor_has_used_up) {
+  profile.actuators[0].max_duty = 0.3;
+  start_with(profile);
+  ASSERT_EQ(safety->duties().size(), 3U);
+  EXPECT_EQ(safety->duties()[0].used, 0);
+  hold(1, 900ms);
+  const double used = safety->duties()[0].used;
+  EXPECT_EQ(safety->duties()[0].id, 1);
+  EXPECT_GT(used, 0.2);
+  hold(1, 300ms);
+  EXPECT_GT(safety->duties()[0].used, used);
+  EXPECT_EQ(safety->duties()[1].used, 0) << "one without a limit";
+}
+
 TEST_F(SafetyStageWithBudgets, takes_up_a_motor_again_that_has_rested) {
   profile.actuators[0].max_duty = 0.3;
   profile.actuators[0].min_strength = 0.3;

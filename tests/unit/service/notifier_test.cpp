@@ -48,6 +48,8 @@ TEST_F(NotifierTest, TellsSystemdOfTheDaemonsStates) {
   EXPECT_EQ(told(), "READY=1");
   notifier.status("waiting\nMAINPID=1");
   EXPECT_EQ(told(), "STATUS=waiting MAINPID=1");
+  notifier.reloading(from_ns(3'000'004'999));
+  EXPECT_EQ(told(), "RELOADING=1\nMONOTONIC_USEC=3000004");
   notifier.stopping();
   EXPECT_EQ(told(), "STOPPING=1");
 }

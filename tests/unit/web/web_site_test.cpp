@@ -232,6 +232,22 @@ TEST_F(TheWebSite, BeginsAStreamOfTopicsThatThereAre) {
   }
 }
 
+TEST_F(TheWebSite, TellsItsMetricsToAnybodyOnThisPcIfThatIsSwitchedOnAndNeverUnderAnotherName) {
+  EXPECT_EQ(answer(get("/metrics")).status, 401U);
+  WebSite open{{.cookie = "telehug-test", .commands = {}, .topics = {}, .metrics = true}, WebFiles({files})};
+  const WebReply told = open.reply(get("/metrics"), port, clock.now());
+  const auto& command = std::get<WebCommand>(told.what);
+  EXPECT_EQ(command.request, Json({{"command", "metrics"}}));
+  EXPECT_TRUE(command.metrics);
+  EXPECT_FALSE(told.known);
+  WebRequest rebound = get("/metrics");
+  rebound.host = "evil.example:8077";
+  EXPECT_EQ(std::get<WebAnswer>(open.reply(rebound, port, clock.now()).what).status / 100, 4U);
+  WebRequest order = post(R"({"command":"status"})");
+  order.cookie = "";
+  EXPECT_EQ(std::get<WebAnswer>(open.reply(order, port, clock.now()).what).status, 401U);
+}
+
 TEST_F(TheWebSite, IsNotMadeOfTextsThatAreMissingOrNone) {
   constexpr EmbeddedFile none[] = {{"index.html", ""}};
   EXPECT_THROW(WebSite({}, WebFiles({none})), std::invalid_argument);

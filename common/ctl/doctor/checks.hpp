@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "ctl/doctor_facts.hpp"
+#include "ctl/doctor/facts.hpp"
 
 namespace telehug {
 
@@ -25,19 +25,30 @@ inline constexpr int newest_firmware = 3;  // held to the firmware's by a test
 
 [[nodiscard]] Findings check_config(const DoctorFacts& facts);
 [[nodiscard]] Findings check_camera(const DoctorFacts& facts);
+[[nodiscard]] Findings check_light(const DoctorFacts& facts);
+[[nodiscard]] Findings check_monitor(const DoctorFacts& facts);
 [[nodiscard]] Findings check_calibration(const DoctorFacts& facts);
 [[nodiscard]] Findings check_session(const DoctorFacts& facts);
 [[nodiscard]] Findings check_serial(const DoctorFacts& facts);
+[[nodiscard]] Findings check_bootloader(const DoctorFacts& facts);
 [[nodiscard]] Findings check_bluetooth(const DoctorFacts& facts);
 [[nodiscard]] Findings check_kernel(const DoctorFacts& facts);
 [[nodiscard]] Findings check_clock(const DoctorFacts& facts);
 [[nodiscard]] Findings check_ports(const DoctorFacts& facts);
 [[nodiscard]] Findings check_firewall(const DoctorFacts& facts);
+[[nodiscard]] Findings check_peers(const DoctorFacts& facts);
 [[nodiscard]] Findings check_pairs(const DoctorFacts& facts);
 [[nodiscard]] Findings check_state_folder(const DoctorFacts& facts);
 [[nodiscard]] Findings check_disk(const DoctorFacts& facts);
+[[nodiscard]] Findings check_units(const DoctorFacts& facts);
 [[nodiscard]] Findings check_daemons(const DoctorFacts& facts);
 
 [[nodiscard]] Findings all_checks(const DoctorFacts& facts);
+
+// --- what several of them ask ---
+
+[[nodiscard]] const SideFacts* find_side(const DoctorFacts& facts, Side side);
+// Does its daemon answer?
+[[nodiscard]] bool talks(const DoctorFacts& facts, Side side);
 
 }  // namespace telehug
