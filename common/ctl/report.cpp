@@ -25,8 +25,13 @@ struct Options {
 Status write(const std::filesystem::path& path, const std::string& text) {
   auto file = PrivateFile::create(path);
   if (!file) return file.error();
-  if (const Status written = file->append(text); !written) return written;
-  return file->close();
+  Status written = file->append(text);
+  if (written) written = file->close();
+  if (written) return Done{};
+  // Else it would be in the way once there is room.
+  std::error_code ignored;
+  std::filesystem::remove(path, ignored);
+  return written;
 }
 
 ExitCode run(const Options& options) {

@@ -18,7 +18,7 @@ namespace {
 Error failure(const fs::path& path, int code) {
   const char* advice = "choose a folder that you may write to";
   if (code == ENOSPC || code == EDQUOT || code == EFBIG) advice = "free some space on the disk";
-  if (code == EEXIST) advice = "choose another folder";
+  if (code == EEXIST) advice = "choose another folder or name";
   return Error{fmt::format("{} can't be written ({}); {}", path.string(), std::strerror(code), advice)};
 }
 

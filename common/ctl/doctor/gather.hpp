@@ -42,7 +42,8 @@ void add_named(std::vector<DeviceNode>& nodes, const std::filesystem::path& root
 // A program of telehug's: beside this one, else in $PATH; empty if there is none.
 [[nodiscard]] std::filesystem::path installed_program(const std::string& name);
 
-void gather_state(SideFacts& side, const PeerConfig& peer);
+// What both sides have: network, pairs, pages.
+void gather_either(const DoctorFacts& facts, SideFacts& side, const PeerConfig& peer, const WebConfig& web);
 void gather_active(DoctorFacts& facts, const DoctorWishes& wishes, SideFacts& side);
 void gather_passive(DoctorFacts& facts, const DoctorWishes& wishes, SideFacts& side);
 void gather_network(DoctorFacts& facts, const DoctorWishes& wishes);

@@ -15,7 +15,6 @@
 #include "bus/bus_connection.hpp"
 #include "config/locator.hpp"
 #include "config/places.hpp"
-#include "ctl/doctor/checks.hpp"
 #include "ctl/doctor/gather.hpp"
 #include "ctl/run_program.hpp"
 #include "files/text_file.hpp"
@@ -180,9 +179,7 @@ bool camera_is_usable(const DoctorFacts& facts) {
 
 void gather_active(DoctorFacts& facts, const DoctorWishes& wishes, SideFacts& side) {
   const ActiveConfig config = readable_active_config(wishes.sources);
-  gather_state(side, config.peer);
-  side.web_port = config.web.enabled ? config.web.port : 0;
-  if (!talks(facts, Side::active)) side.peers = probe_peers(config.peer.addresses, config.peer.domain);
+  gather_either(facts, side, config.peer, config.web);
   const auto source = parse_camera_source(config.camera.source);
   facts.wants_webcam = source && source->kind == CameraSourceKind::webcam;
   facts.configured_camera = config.camera.device;

@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include "config/places.hpp"
+#include "ctl/doctor/checks.hpp"
 #include "ctl/doctor/gather.hpp"
 #include "pairing/pairing.hpp"
 
@@ -50,7 +51,9 @@ void add_pairs(SideFacts& facts, const fs::path& folder) {
 
 }  // namespace
 
-void gather_state(SideFacts& side, const PeerConfig& peer) {
+void gather_either(const DoctorFacts& facts, SideFacts& side, const PeerConfig& peer, const WebConfig& web) {
+  side.web_port = web.enabled ? web.port : 0;
+  if (!talks(facts, side.side)) side.peers = probe_peers(peer.addresses, peer.domain);
   side.domain = peer.domain;
   side.loopback_only = peer.loopback_only;
   const fs::path pairs = pairs_folder(peer, side.side);

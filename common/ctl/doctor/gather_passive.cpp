@@ -5,7 +5,6 @@
 
 #include "config/locator.hpp"
 #include "ctl/avrdude.hpp"
-#include "ctl/doctor/checks.hpp"
 #include "ctl/doctor/gather.hpp"
 #include "ctl/port_claim.hpp"
 #include "wire/bluez_objects.hpp"
@@ -47,9 +46,7 @@ std::string bluetooth_trouble(const std::string& text) {
 void gather_passive(DoctorFacts& facts, const DoctorWishes& wishes, SideFacts& side) {
   const fs::path& root = wishes.root;
   const PassiveConfig config = readable_passive_config(wishes.sources);
-  gather_state(side, config.peer);
-  side.web_port = config.web.enabled ? config.web.port : 0;
-  if (!talks(facts, Side::passive)) side.peers = probe_peers(config.peer.addresses, config.peer.domain);
+  gather_either(facts, side, config.peer, config.web);
   const auto link = parse_jacket_link(config.jacket.link);
   facts.wants_bluetooth = link && link->kind == JacketLinkKind::bluetooth;
   if (link && link->kind == JacketLinkKind::serial) facts.serial_port = link->path;

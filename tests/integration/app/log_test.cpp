@@ -123,11 +123,14 @@ TEST_F(TheLogs, GoToTheJournalWithWhatTheyAreAbout) {
   pair.active_settings = pair.passive_settings = {"log.level=debug"};
   pair.pair_up();
   ASSERT_TRUE(pair.start_all()) << pair.logs();
-  const Outcome stopped = pair.telehug("stop", Side::passive, {"--reason", "dinner"});
-  ASSERT_EQ(stopped.code, 0) << stopped.text << pair.logs();
   const auto came = [&](const auto& entry) {
     return eventually([&] { return testing::Value(journal.entries(), Contains(entry)); });
   };
+  // Before the stop, which closes the camera: what is over sooner than it is looked at is not told.
+  EXPECT_TRUE(came(IsSupersetOf(JournalSocket::Entry{{"SYSLOG_IDENTIFIER", "telehug-active"},
+                                                     {"MESSAGE_ID", std::string(message_id::camera_open)}})));
+  const Outcome stopped = pair.telehug("stop", Side::passive, {"--reason", "dinner"});
+  ASSERT_EQ(stopped.code, 0) << stopped.text << pair.logs();
   EXPECT_TRUE(came(IsSupersetOf(JournalSocket::Entry{{"MESSAGE", "stopped: dinner"},
                                                      {"PRIORITY", "4"},
                                                      {"SYSLOG_IDENTIFIER", "telehug-passive"},
@@ -140,8 +143,6 @@ TEST_F(TheLogs, GoToTheJournalWithWhatTheyAreAbout) {
   EXPECT_TRUE(came(IsSupersetOf(JournalSocket::Entry{{"SYSLOG_IDENTIFIER", "telehug-passive"},
                                                      {"TELEHUG_STAGE", "jacket"},
                                                      {"MESSAGE_ID", std::string(message_id::jacket_ready)}})));
-  EXPECT_TRUE(came(IsSupersetOf(JournalSocket::Entry{{"SYSLOG_IDENTIFIER", "telehug-active"},
-                                                     {"MESSAGE_ID", std::string(message_id::camera_open)}})));
   EXPECT_TRUE(came(AllOf(IsSupersetOf(JournalSocket::Entry{{"SYSLOG_IDENTIFIER", "telehug-passive"},
                                                            {"PRIORITY", "7"},
                                                            {"TELEHUG_STAGE", "touch"},

@@ -51,13 +51,14 @@ class Report : public testing::Test {
                  "2026-11-29T12:00:04+0000 telehug-passive[7]: no jacket answers on 00:1A:7D:DA:71:13: it is off\n");
   }
 
-  ShellRun run(const std::string& arguments) const {
+  [[nodiscard]] std::string command(const std::string& arguments) const {
     const std::string base = folder.path().string();
-    return shell("cd " + base + " && env -u DISPLAY -u WAYLAND_DISPLAY HOME=" + base +
-                 " USER=philomena XDG_CONFIG_HOME=" + base + "/config XDG_STATE_HOME=" + base +
-                 "/state XDG_RUNTIME_DIR=" + base + "/run PATH=" + base + "/bin:" + std::getenv("PATH") +
-                 " " TELEHUG_BIN "/telehug report " + arguments + " 2>&1");
+    return "cd " + base + " && env -u DISPLAY -u WAYLAND_DISPLAY HOME=" + base +
+           " USER=philomena XDG_CONFIG_HOME=" + base + "/config XDG_STATE_HOME=" + base +
+           "/state XDG_RUNTIME_DIR=" + base + "/run PATH=" + base + "/bin:" + std::getenv("PATH") +
+           " " TELEHUG_BIN "/telehug report " + arguments + " 2>&1";
   }
+  ShellRun run(const std::string& arguments) const { return shell(command(arguments)); }
   [[nodiscard]] std::string content(const std::string& file) const {
     std::ostringstream text;
     text << std::ifstream(folder / file).rdbuf();
@@ -169,6 +170,13 @@ TEST_F(Report, OverwritesNothing) {
   EXPECT_EQ(made.code, to_int(ExitCode::internal));
   EXPECT_THAT(made.text, HasSubstr("report.txt can't be written"));
   EXPECT_EQ(content("report.txt"), "mine");
+}
+
+TEST_F(Report, LeavesNothingBehindWhereNothingFits) {
+  const ShellRun failed = shell("ulimit -f 0; trap '' XFSZ; " + command("--output report.txt"));
+  EXPECT_NE(failed.code, 0);
+  EXPECT_THAT(failed.text, AllOf(HasSubstr("report.txt can't be written"), HasSubstr("free some space")));
+  EXPECT_FALSE(fs::exists(folder / "report.txt"));
 }
 
 TEST_F(Report, TellsThatThereIsNoJournal) {

@@ -85,12 +85,19 @@ export class Daemons {
     const held = path.join(this.folder, "held");
     const rig = path.join(this.folder, "rig.toml");
     fs.mkdirSync(held);
-    fs.symlinkSync(path.join(fixtures, "rig2/sequence/012.jpg"), path.join(held, "1.jpg"));
+    this.showCamera("sequence/012.jpg");
     await run(path.join(this.bin, "telehug-active"), ["calibrate", "--config", "/dev/null", "--source",
                                                       `replay:${path.join(fixtures, "rig2")}`, "--out", rig]);
     return this.start("active", [`rig.calibration_file=${rig}`,
                                  `body_map.picture=${path.join(fixtures, "chat/01_full.jpg")}`],
                       ["--source", `replay:${held}`, "--loop"]);
+  }
+
+  // What the camera of startActive() sees from now on, of tests/fixtures/rig2: at first a finger that rests.
+  showCamera(picture) {
+    const next = path.join(this.folder, "next.jpg");
+    fs.symlinkSync(path.join(this.source, "tests/fixtures/rig2", picture), next);
+    fs.renameSync(next, path.join(this.folder, "held", "1.jpg"));
   }
 
   // A PC on which nothing has been set up yet.

@@ -24,6 +24,11 @@ const answers = (pattern) => eventually(async () => pattern.test(await answer())
 const touched = () => page.locator("#picture .touched").evaluateAll((boxes) => boxes.map((box) => Number(box.dataset.box)));
 const felt = () => page.locator("#picture .felt").count();
 
+const framesPass = async (count) => {
+  const end = (await status()).counters.frames + count;
+  await eventually(async () => (await status()).counters.frames >= end, `${count} pictures pass`);
+};
+
 describe("The parent's page", () => {
   before(async () => {
     daemons = new Daemons(TELEHUG_BIN, TELEHUG_SOURCE);
@@ -211,6 +216,11 @@ describe("The parent's page", () => {
     await eventually(async () => (await status()).camera.why === "a set-up uses it", "it goes on");
     assert.equal((await status()).counters.touches_published, before);
     await setUp("cancel");
+    // What lies on the screen then was meant for the set-up: it touches somebody when it was lifted.
+    daemons.showCamera("background.jpg");
+    await eventually(async () => (await status()).sending.on, "touches go out again");
+    await framesPass(10);
+    daemons.showCamera("sequence/012.jpg");
     await eventually(felt, "a box is felt again");
   });
 

@@ -108,6 +108,13 @@ describe("The pairing page", () => {
     await parent.getByRole("button", {name: "Show a code"}).waitFor();
   });
 
+  test("asks nobody else for anything, complains of nothing and is light", async () => {
+    assert.deepEqual(wearer.wrong, []);
+    await browser.assertLight(wearer);
+    await browser.assertLight(parent);
+  });
+
+  // The last: the daemon whose only pair is over ends.
   test("forgets a pair only after it has asked", async () => {
     const forget = parent.getByRole("button", {name: "Forget the pair with Mia"});
     await forget.click();
@@ -117,11 +124,5 @@ describe("The pairing page", () => {
     await forget.click();
     await parent.getByRole("button", {name: "Forget this pair", exact: true}).click();
     await parent.getByText("None yet.").waitFor();
-  });
-
-  test("asks nobody else for anything, complains of nothing and is light", async () => {
-    assert.deepEqual(wearer.wrong, []);
-    await browser.assertLight(wearer);
-    await browser.assertLight(parent);
   });
 });
