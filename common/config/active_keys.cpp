@@ -26,7 +26,7 @@ std::vector<Key> keys_of(ActiveConfig& c) {
        &c.camera.device,
        "",
        {},
-       "The webcam, best by its /dev/v4l/by-id/ path; empty: the only camera there is."},
+       "The webcam, best by its /dev/v4l/by-id/ path; empty: the first by name; with two cameras say which."},
       {"camera", "width_px", &c.camera.width_px, "px", Range{160, 7680}, "Width of the camera's frames."},
       {"camera", "height_px", &c.camera.height_px, "px", Range{120, 4320}, "Height of the camera's frames."},
       {"camera", "fps", &c.camera.fps, "frames/s", Range{1, 240}, "Frame rate asked of the camera."},

@@ -38,7 +38,7 @@ struct LogConfig {
 
 struct CameraConfig {
   std::string source = "webcam";  // read it with parse_camera_source()
-  std::string device;             // empty: the only camera there is
+  std::string device;             // empty: the first by name
   int width_px = 1280;
   int height_px = 720;
   int fps = 30;
