@@ -8,6 +8,14 @@ install(FILES deploy/desktop/telehug.svg DESTINATION share/icons/hicolor/scalabl
 install(FILES deploy/firewall/telehug.nft DESTINATION share/telehug/firewall COMPONENT common)
 install(FILES deploy/grafana/telehug.json DESTINATION share/telehug/grafana COMPONENT common)
 install(DIRECTORY docs/ DESTINATION share/doc/telehug-common/docs COMPONENT common)
+# What its pages for those who use telehug lead to.
+foreach(page README.md ARCHITECTURE.md common/web/README.md deploy/firewall/telehug.nft deploy/jackets/README.md
+    passive_side/firmware/README.md passive_side/firmware/wiring_motors12_heaters2.svg
+    passive_side/firmware/wiring_motors16.svg passive_side/gpio/README.md passive_side/rendering/README.md
+    passive_side/wire/README.md)
+  cmake_path(GET page PARENT_PATH folder)
+  install(FILES ${page} DESTINATION share/doc/telehug-common/${folder} COMPONENT common)
+endforeach()
 foreach(part common active passive)
   install(FILES CHANGELOG.md DESTINATION share/doc/telehug-${part} RENAME changelog COMPONENT ${part})
   install(FILES deploy/packages/copyright DESTINATION share/doc/telehug-${part} COMPONENT ${part})
