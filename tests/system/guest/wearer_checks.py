@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """wearer_checks.py GROUP: the wearer's PC, its unit under systemd, its jacket at a USB serial port and behind Bluetooth."""
+import json
 import os
 import re
 import signal
@@ -83,6 +84,35 @@ def watchdog():
     within(ARMED_WITHIN_S, "another process runs", lambda: int(property_of_unit("MainPID")) not in (0, pid))
     armed_and_felt(BY_ID)
     return f"off after {off_s:.2f} s, restarted after {restarted_s:.1f} s, felt again"
+
+
+def doctor():
+    """What of its findings fails, and all of them as text."""
+    findings = json.loads(run("telehug", "doctor", "passive", "--json", fails=True))["findings"]
+    return [finding for finding in findings if finding["level"] == "fail"], json.dumps(findings)
+
+
+def failed_unit_is_told():
+    """By a real systemd and its journal."""
+    with open(SETTINGS, "a", encoding="ascii") as file:
+        file.write('linc = "mistyped"\n')
+    run("systemctl", "restart", UNIT, fails=True)
+    failed, said = doctor()
+    if not any(f"{UNIT} has failed" in finding["what"] for finding in failed):
+        raise Failed(f"the doctor does not tell the unit that has failed: {said}")
+    if not any("50-guest.toml" in finding["what"] and "linc" in finding["what"] for finding in failed):
+        raise Failed(f"nor what is wrong: {said}")
+    run("telehug", "report", "passive", "--output", "/tmp/report.txt")
+    with open("/tmp/report.txt", encoding="utf-8") as file:
+        report = file.read()
+    if "linc" not in report.split("== log", 1)[1]:
+        raise Failed("the report has no line of the journal")
+    use_usb()
+    within(ARMED_WITHIN_S, "the jacket is armed", armed)
+    failed, said = doctor()
+    if failed:
+        raise Failed(f"mended, the doctor still finds {said}")
+    return f"named, with file and key; mended, nothing fails; a report of {len(report)} letters"
 
 
 def gpio_lines():
@@ -218,6 +248,7 @@ GROUPS = {
         "unplugged: told absent": lambda: told_absent_after(usb_jacket.unplug),
         "plugged in under another name: armed and felt": replug_under_another_name,
         "the daemon hangs: motors off, restarted by the watchdog": watchdog,
+        "a setting that keeps the unit from starting: told by the doctor": failed_unit_is_told,
         "the wrapper of libgpiod on gpio-sim": gpio_lines,
         "stop button, supply and light on GPIO lines": stop_button,
     },
