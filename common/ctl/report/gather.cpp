@@ -48,16 +48,33 @@ std::string variable(const char* name) {
   return value == nullptr ? "" : value;
 }
 
+void hide_user(const passwd* user, Masker& masker) {
+  if (user == nullptr) return;
+  masker.hide(user->pw_name, "user");
+  masker.hide(user->pw_dir, "home");
+  const std::string full_name = user->pw_gecos == nullptr ? "" : user->pw_gecos;
+  masker.hide(full_name.substr(0, full_name.find(',')), "user");
+}
+
 void hide_this_pc(Masker& masker) {
   utsname names{};
   if (::uname(&names) == 0) masker.hide(names.nodename, "this PC");
   masker.hide(variable("HOME"), "home");
-  masker.hide(variable("USER"), "user");
-  if (const passwd* user = ::getpwuid(::geteuid()); user != nullptr) {
-    masker.hide(user->pw_name, "user");
-    const std::string full_name = user->pw_gecos == nullptr ? "" : user->pw_gecos;
-    masker.hide(full_name.substr(0, full_name.find(',')), "user");
+  hide_user(::getpwuid(::geteuid()), masker);
+  for (const char* name : {"USER", "SUDO_USER"}) {
+    masker.hide(variable(name), "user");
+    hide_user(::getpwnam(variable(name).c_str()), masker);
   }
+}
+
+// Also of pairs that are over: whoever the journal has lines about.
+void hide_peers_of_journal(Masker& masker) {
+  const auto run =
+      run_program({"journalctl", "--field=TELEHUG_PEER", "--no-pager", "-q"}, 10s, "there is no journalctl");
+  if (!run || run->code != 0) return;  // nor does this report tell of it, then
+  std::istringstream names(run->output);
+  for (std::string name; std::getline(names, name);)
+    if (name != "the other side") masker.hide(name, "name");  // as a peer without a pair is called
 }
 
 void hide_pairs(const PeerConfig& peer, Side side, Masker& masker) {
@@ -147,6 +164,7 @@ std::string make_report(const ConfigChoice& choice) {
 
   Masker masker;
   hide_this_pc(masker);
+  hide_peers_of_journal(masker);
   for (const Side side : {Side::active, Side::passive}) {
     hide_texts_of(inspect_config(wishes.sources, side), masker);
     hide_pairs(peer_of(wishes.sources, side), side, masker);
