@@ -37,6 +37,10 @@ Finding unit_finding(const UnitFacts& unit) {
   return {"unit", Level::ok, unit.name + " runs", {}};
 }
 
+bool is_idle(const UnitFacts& unit) {
+  return unit.active == "inactive" && unit.enabled != "enabled";
+}
+
 bool has_unit(const SideFacts& side) {
   return std::ranges::any_of(side.units, [](const UnitFacts& unit) { return unit.load == "loaded"; });
 }
@@ -83,11 +87,11 @@ Findings check_units(const DoctorFacts& facts) {
   Findings findings;
   for (const SideFacts& side : facts.sides) {
     // Of the two that the active side has one is enough; who runs it by hand needs none.
-    const bool one_runs = std::ranges::any_of(side.units, [](const UnitFacts& u) { return u.active == "active"; });
+    const bool one_is_used =
+        std::ranges::any_of(side.units, [](const UnitFacts& u) { return u.load == "loaded" && !is_idle(u); });
     for (const UnitFacts& unit : side.units) {
       if (unit.load != "loaded") continue;
-      const bool idle = unit.active == "inactive" && unit.enabled != "enabled";
-      if (idle && (one_runs || talks(facts, side.side) || &unit != &side.units.front())) continue;
+      if (is_idle(unit) && (one_is_used || talks(facts, side.side) || &unit != &side.units.front())) continue;
       findings.push_back(unit_finding(unit));
     }
   }

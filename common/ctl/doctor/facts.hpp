@@ -27,6 +27,7 @@ struct MonitorSize {
 struct CalibrationFacts {
   std::string file;
   bool there = false;
+  bool secret = false;  // from the user who asks: it is the service's
   std::string trouble;  // why it can't be read
   double width_mm = 0;  // of the visible screen
   double height_mm = 0;
@@ -84,6 +85,12 @@ struct PeerProbe {
   std::string address;
   PeerAnswer answer = PeerAnswer::silent;
 };
+
+// The system's unit of a side, without ".service"; the active side's is a fixed rig's. The user's is
+// telehug-active alone.
+[[nodiscard]] constexpr const char* system_unit(Side side) {
+  return side == Side::active ? "telehug-active-rig" : "telehug-passive";
+}
 
 struct SideFacts {
   Side side = Side::active;

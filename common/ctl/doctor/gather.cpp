@@ -9,7 +9,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cstdlib>
 #include <fstream>
 #include <sstream>
 
@@ -20,23 +19,6 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr uid_t first_login = 1000;  // Debian Policy 9.2.2
-
-// Finds its files where the system's unit has them, whoever asks.
-class StateOfService {
- public:
-  explicit StateOfService(bool wanted) : set_(wanted && std::getenv(variable) == nullptr) {
-    if (set_) ::setenv(variable, "/var/lib/telehug", 0);
-  }
-  ~StateOfService() {
-    if (set_) ::unsetenv(variable);
-  }
-  StateOfService(const StateOfService&) = delete;
-  StateOfService& operator=(const StateOfService&) = delete;
-
- private:
-  static constexpr const char* variable = "STATE_DIRECTORY";
-  bool set_;
-};
 
 void ask_daemons(DoctorFacts& facts) {
   Daemons daemons = find_daemons({});
@@ -97,6 +79,11 @@ Account own_account() {
   return {name_of_user(user), true, user != 0 && user < first_login};
 }
 
+ConfigSources sources_of(const Account& account, ConfigSources sources) {
+  if (!account.self && !sources.only_file) sources.user_folder.clear();
+  return sources;
+}
+
 bool may(const Account& account, const fs::path& path, int what) {
   if (account.self) return ::faccessat(AT_FDCWD, path.c_str(), what, AT_EACCESS) == 0;
   struct stat status {};
@@ -128,7 +115,7 @@ DoctorFacts gather_facts(const DoctorWishes& wishes) {
     side.side = name;
     side.units = units_of(name, wishes.root);
     side.account = account_of(side.units, wishes.system);
-    if (!side.account.self && !of_side.sources.only_file) of_side.sources.user_folder.clear();
+    of_side.sources = sources_of(side.account, wishes.sources);
     const StateOfService state(!side.account.self);
     side.config_faults = inspect_config(of_side.sources, name).faults;
     name == Side::active ? gather_active(facts, of_side, side) : gather_passive(facts, of_side, side);

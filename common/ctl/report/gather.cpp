@@ -111,7 +111,7 @@ std::string versions() {
 }
 
 std::string journal_of(Side side, bool user) {
-  const std::string unit = "telehug-" + side_name(side);
+  const std::string unit = user ? "telehug-active" : system_unit(side);
   const std::string name = fmt::format("{} {}", user ? "--user-unit" : "-u", unit);
   const auto run = run_program({"journalctl", user ? "--user-unit=" + unit : "--unit=" + unit, "-n", journal_lines,
                                 "--no-pager", "--no-hostname", "-q", "-o", "short-iso"},
@@ -168,6 +168,8 @@ std::string make_report(const ConfigChoice& choice) {
   for (const Side side : {Side::active, Side::passive}) {
     hide_texts_of(inspect_config(wishes.sources, side), masker);
     hide_pairs(peer_of(wishes.sources, side), side, masker);
+    const StateOfService state(true);
+    hide_pairs(peer_of(wishes.sources, side), side, masker);
   }
   for (const Json& status : facts.daemons)
     hide_texts_of(status, masker);
@@ -178,7 +180,7 @@ std::string make_report(const ConfigChoice& choice) {
   text += heading("doctor") + masker.mask_free_text(doctor_text(all_checks(facts)));
   text += heading("configuration");
   for (const SideFacts& side : facts.sides)
-    text += config_section(inspect_config(wishes.sources, side.side), side.side, masker);
+    text += config_section(inspect_config(sources_of(side.account, wishes.sources), side.side), side.side, masker);
   text += heading("status");
   for (const SideFacts& side : facts.sides) {
     const Json* status = status_of(facts, side.side);

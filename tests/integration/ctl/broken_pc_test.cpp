@@ -19,7 +19,16 @@ namespace {
 namespace fs = std::filesystem;
 using std::chrono::hours;
 
-using BrokenPcByItself = BrokenPc;
+class BrokenPcByItself : public BrokenPc {
+ protected:
+  // Those of bin/ go before the system's.
+  void use_own_programs() {
+    const fs::path bin = root().parent_path() / "bin";
+    for (const auto& program : fs::directory_iterator(bin))
+      fs::permissions(program, fs::perms::owner_all | fs::perms::others_exec | fs::perms::others_read);
+    set("PATH=" + bin.string() + ":" + std::getenv("PATH"));
+  }
+};
 
 // Bound to this port (0: any) until it ends.
 class TakenPort {
@@ -145,15 +154,27 @@ TEST_F(BrokenPcByItself, ADaemonThatDoesNotRunIsNamed) {
   expect("passive", {"daemon not running", "warn", "daemon", "telehug-passive does not run", "telehug-passive run"});
 }
 
+// The user's unit is there, too, as the package installs it, and not used.
+TEST_F(BrokenPcByItself, AFixedRigWhoseUnitHasFailedIsNamed) {
+  fs::create_directories(root() / "run/systemd/system");
+  write(
+      "bin/systemctl",
+      "#!/bin/sh\necho LoadState=loaded\ncase \"$*\" in\n"
+      "*--user*) echo ActiveState=inactive; echo UnitFileState=disabled; echo Result=success;;\n"
+      "*' telehug-active-rig.service '*) echo ActiveState=failed; echo UnitFileState=enabled; echo Result=exit-code;;\n"
+      "*) exit 1;;\nesac\n");
+  use_own_programs();
+  expect("active", {"a fixed rig's unit failed", "fail", "unit", "telehug-active-rig.service has failed (exit-code)",
+                    "sudo systemctl restart telehug-active-rig.service"});
+}
+
 // A `systemctl` that says what systemd 252's said of a unit that could not start.
 TEST_F(BrokenPcByItself, AUnitThatHasFailedIsNamed) {
   fs::create_directories(root() / "run/systemd/system");
   write("bin/systemctl",
         "#!/bin/sh\necho Result=exit-code\necho NRestarts=5\necho LoadState=loaded\necho ActiveState=failed\n"
         "echo UnitFileState=enabled\n");
-  const fs::path bin = root().parent_path() / "bin";
-  fs::permissions(bin / "systemctl", fs::perms::owner_all | fs::perms::others_exec | fs::perms::others_read);
-  set("PATH=" + bin.string() + ":" + std::getenv("PATH"));
+  use_own_programs();
   expect("passive", {"systemd unit failed", "fail", "unit", "telehug-passive.service has failed (exit-code)",
                      "journalctl -u telehug-passive.service -e"});
 }

@@ -41,7 +41,8 @@ class Report : public testing::Test {
     CraftedPair(pair).keep(folder / "state/telehug/pairs/passive", Side::passive);
     // A journal, as journalctl prints it.
     folder.write("bin/journalctl", "#!/bin/sh\ncase $* in *telehug-passive*) cat " + (folder / "journal").string() +
-                                       ";; *--field=TELEHUG_PEER' '*) printf 'Agnes Nitt\\nthe other side\\n';; esac\n");
+                                       ";; *--unit=telehug-active-rig' '*) echo the rig ends;; *--field=TELEHUG_PEER' "
+                                       "'*) printf 'Agnes Nitt\\nthe other side\\n';; esac\n");
     fs::permissions(folder / "bin/journalctl", fs::perms::owner_all);
     folder.write("journal",
                  "2026-11-29T12:00:00+0000 telehug-passive[7]: telehug-passive 0.1.0 runs\n"
@@ -133,6 +134,12 @@ TEST_F(Report, HoldsNothingThatIsNobodyElsesBusiness) {
                              "95530343",          "PRIVATE KEY", "BEGIN",         "muted",      "last_touch"})
     EXPECT_THAT(text, Not(HasSubstr(secret)));
   EXPECT_THAT(text, Not(HasSubstr(folder.path().string())));
+}
+
+TEST_F(Report, HoldsTheLogOfAFixedRig) {
+  const std::string text = report();
+  EXPECT_THAT(text, AllOf(HasSubstr("--user-unit telehug-active: nothing"),
+                          HasSubstr("-u telehug-active-rig: \nthe rig ends")));
 }
 
 TEST_F(Report, SaysWhereItIsAndWhatIsInIt) {

@@ -104,6 +104,34 @@ TEST(DoctorChecks, OfTheActiveSidesTwoUnitsTheIdleOneIsNotMissed) {
   EXPECT_EQ(check_units(facts).size(), 1U);
 }
 
+// The system's unit of the active side is a fixed rig's: another name than the user's.
+TEST(DoctorChecks, AFailedRigIsToldAndTheUsersIdleUnitIsNotMissedBesideIt) {
+  DoctorFacts facts = facts_of(Side::active);
+  facts.sides[0].units = {{"telehug-active.service", true, "loaded", "inactive", "disabled", "success", 0},
+                          {"telehug-active-rig.service", false, "loaded", "failed", "enabled", "exit-code", 5}};
+  ASSERT_EQ(check_units(facts).size(), 1U);
+  EXPECT_EQ(check_units(facts)[0].level, Level::fail);
+  EXPECT_THAT(check_units(facts)[0].fix, HasSubstr("sudo systemctl restart telehug-active-rig.service"));
+}
+
+TEST(DoctorChecks, AFixedRigIsJudgedAsItsServiceHasIt) {
+  DoctorFacts facts = facts_of(Side::active);
+  facts.sides[0].account = {"telehug", false, true};
+  facts.wants_webcam = true;
+  facts.cameras = {{"/dev/video0", false}};
+  EXPECT_EQ(check_camera(facts).front().fix,
+            "sudo usermod -aG video telehug, then sudo systemctl restart telehug-active-rig");
+  facts.wants_screen = true;  // and this shell has none
+  EXPECT_EQ(check_session(facts).front().level, Level::ok);
+  facts.monitors = {{"DP-1", 520, 290}};
+  EXPECT_THAT(
+      check_calibration(facts).front().fix,
+      HasSubstr("sudo -u telehug env STATE_DIRECTORY=/var/lib/telehug telehug-active calibrate --width-mm 520"));
+  facts.calibration.secret = true;
+  EXPECT_EQ(check_calibration(facts).front().level, Level::warn);
+  EXPECT_THAT(check_calibration(facts).front().fix, HasSubstr("sudo telehug doctor"));
+}
+
 TEST(DoctorChecks, LightIsJudgedByWhatTheCameraMeasures) {
   DoctorFacts facts = facts_of(Side::active);
   LightFacts& light = facts.light.emplace();
