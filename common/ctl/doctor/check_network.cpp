@@ -127,7 +127,8 @@ Findings check_pairs(const DoctorFacts& facts) {
     if (side.pairs.empty())
       findings.push_back({"pairs", Level::warn,
                           side_name(side.side) + ": there is no pair: only this PC itself is heard",
-                          "telehug pair invite here, telehug pair accept on the other PC"});
+                          (side.account.self ? "" : "sudo ") +
+                              std::string("telehug pair invite here, telehug pair accept on the other PC")});
     for (const PairFacts& pair : side.pairs) {
       for (const auto& [what, fix] : pair.faults)
         findings.push_back({"pairs", Level::fail, fmt::format("{}: {}", pair.id, what), fix});

@@ -156,6 +156,13 @@ TEST(DoctorChecks, AMonitorWithoutSizeIsNoTroubleOnceItWasMeasured) {
   EXPECT_EQ(check_monitor(facts).front().level, Level::ok);
 }
 
+TEST(DoctorChecks, AMissingPairOfAServiceIsMadeByRoot) {
+  DoctorFacts facts = facts_of(Side::passive);
+  EXPECT_EQ(check_pairs(facts).front().fix, "telehug pair invite here, telehug pair accept on the other PC");
+  facts.sides[0].account = {"telehug", false, true};
+  EXPECT_EQ(check_pairs(facts).front().fix, "sudo telehug pair invite here, telehug pair accept on the other PC");
+}
+
 TEST(DoctorChecks, APairThatEndsSoonIsToldBeforeItDoes) {
   DoctorFacts facts = facts_of(Side::active);
   facts.sides[0].pairs.push_back({"0123", 13, {}});
