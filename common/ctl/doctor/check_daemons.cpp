@@ -101,7 +101,12 @@ Findings check_units(const DoctorFacts& facts) {
 Findings check_daemons(const DoctorFacts& facts) {
   Findings findings;
   for (const SideFacts& side : facts.sides)
-    if (!talks(facts, side.side))
+    if (!side.denied_socket.empty())
+      findings.push_back({"daemon", Level::warn,
+                          fmt::format("telehug-{} is there, but {} may not be used by {}", side_name(side.side),
+                                      side.denied_socket, facts.asked_by),
+                          fmt::format("sudo usermod -aG telehug {}, then log in again", facts.asked_by)});
+    else if (!talks(facts, side.side))
       findings.push_back({"daemon", Level::warn, fmt::format("telehug-{} does not run", side_name(side.side)),
                           has_unit(side) ? "see unit, or telehug-" + side_name(side.side) + " run"
                                          : fmt::format("telehug-{} run", side_name(side.side))});

@@ -62,12 +62,14 @@ Findings check_clock(const DoctorFacts& facts) {
 
 Findings check_ports(const DoctorFacts& facts) {
   Findings findings;
+  const auto is_denied = [](const SideFacts& side) { return !side.denied_socket.empty(); };
+  const bool all_told = facts.daemons.empty() && std::ranges::none_of(facts.sides, is_denied);
   for (const SideFacts& side : facts.sides) {
-    if (talks(facts, side.side)) continue;  // they are its own
+    if (talks(facts, side.side) || is_denied(side)) continue;  // they are its own
     const int first = first_port(side);
     const auto of_domain = [&](int port) { return port >= first && port < first + ports_of_a_domain; };
     const auto taken = std::ranges::find_if(facts.udp_ports, of_domain);
-    if (taken != facts.udp_ports.end() && facts.daemons.empty())
+    if (taken != facts.udp_ports.end() && all_told)
       findings.push_back({"ports", Level::warn,
                           fmt::format("another program uses the UDP port {} of telehug's", *taken),
                           "`ss -ulpn` tells which; end it, or set peer.domain to another number on both PCs"});

@@ -105,6 +105,7 @@ struct SideFacts {
   std::vector<PeerProbe> peers;  // of the configured addresses, while the other PC is not connected
   int web_port = 0;              // 0: the kernel chooses one
   std::vector<UnitFacts> units;
+  std::string denied_socket;  // of its daemon, which is there and this user may not ask; empty: it is not so
 };
 
 enum class BootloaderKind { not_asked, none, good, old };
@@ -138,7 +139,8 @@ struct DoctorFacts {
   bool bluetooth_blocked = false;  // rfkill(8)
   std::string bluez_trouble;       // "what; what to do"; empty: none
   // this PC
-  std::string kernel;  // /proc/version
+  std::string asked_by;  // the user
+  std::string kernel;    // /proc/version
   std::optional<bool> clock_synchronised;
   std::vector<int> udp_ports;              // in use on this PC
   std::vector<int> tcp_ports;              // that somebody listens on

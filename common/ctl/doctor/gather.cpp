@@ -13,6 +13,8 @@
 #include <sstream>
 
 #include "ctl/daemons.hpp"
+#include "ctl/doctor/checks.hpp"
+#include "service/control_socket.hpp"
 
 namespace telehug {
 namespace fs = std::filesystem;
@@ -20,7 +22,9 @@ namespace {
 
 constexpr uid_t first_login = 1000;  // Debian Policy 9.2.2
 
-void ask_daemons(DoctorFacts& facts) {
+// The sockets that this user may not use are left for what is known of their sides.
+std::vector<fs::path> ask_daemons(DoctorFacts& facts) {
+  std::vector<fs::path> denied;
   Daemons daemons = find_daemons({});
   for (Daemon& daemon : daemons.found) {
     auto status = daemon.client.ask({{"command", "status"}});
@@ -31,8 +35,24 @@ void ask_daemons(DoctorFacts& facts) {
                                              "its daemon hangs: start it again");
   }
   for (const Unreachable& daemon : daemons.unreachable)
-    if (daemon.code != ExitCode::not_running)
+    if (daemon.code == ExitCode::permission)
+      denied.push_back(daemon.socket);
+    else if (daemon.code != ExitCode::not_running)
       facts.unreachable_daemons.emplace_back(daemon.sentence, "run `sudo telehug doctor`");
+  return denied;
+}
+
+// Whether a socket is in a folder that is closed to this user nobody can see: then the system's unit tells, if it can.
+std::string denied_socket(const SideFacts& side, const std::vector<fs::path>& denied) {
+  const bool unit_is_down = std::ranges::any_of(side.units, [](const UnitFacts& unit) {
+    return !unit.user && unit.load == "loaded" && unit.active != "active" && unit.active != "activating";
+  });
+  for (const fs::path& socket : denied) {
+    std::error_code hidden;
+    const bool seen = fs::exists(socket, hidden);
+    if (socket.stem() == side_name(side.side) && (seen || (hidden && !unit_is_down))) return socket.string();
+  }
+  return "";
 }
 
 bool groups_have(const Account& account, gid_t group) {
@@ -107,14 +127,16 @@ void add_named(std::vector<DeviceNode>& nodes, const fs::path& root, const std::
 
 DoctorFacts gather_facts(const DoctorWishes& wishes) {
   DoctorFacts facts;
+  facts.asked_by = own_account().name;
   facts.kernel = content_of(wishes.root / "proc/version");
-  ask_daemons(facts);
+  const std::vector<fs::path> denied = ask_daemons(facts);
   for (const Side name : wishes.sides.empty() ? sides_here(wishes.sources, facts.daemons) : wishes.sides) {
     DoctorWishes of_side = wishes;
     SideFacts side;
     side.side = name;
     side.units = units_of(name, wishes.root);
     side.account = account_of(side.units, wishes.system);
+    if (!talks(facts, name)) side.denied_socket = denied_socket(side, denied);
     of_side.sources = sources_of(side.account, wishes.sources);
     const StateOfService state(!side.account.self);
     side.config_faults = inspect_config(of_side.sources, name).faults;

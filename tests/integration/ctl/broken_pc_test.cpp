@@ -12,6 +12,7 @@
 #include "doubles/crafted_pair.hpp"
 #include "doubles/unique_domain.hpp"
 #include "integration/ctl/broken_pc.hpp"
+#include "service/control_server.hpp"
 
 namespace telehug {
 namespace {
@@ -166,6 +167,19 @@ TEST_F(BrokenPcByItself, AFixedRigWhoseUnitHasFailedIsNamed) {
   use_own_programs();
   expect("active", {"a fixed rig's unit failed", "fail", "unit", "telehug-active-rig.service has failed (exit-code)",
                     "sudo systemctl restart telehug-active-rig.service"});
+}
+
+TEST_F(BrokenPcByItself, ADaemonThatThisUserMayNotAskIsNamedAndNotItsPorts) {
+  const UniqueDomain domain;
+  configure("passive",
+            "[jacket]\nlink = \"serial:/dev/ttyACM0\"\n[peer]\ndomain = " + std::to_string(domain.id()) + "\n");
+  const TakenPort its(SOCK_DGRAM, 7400 + 250 * static_cast<int>(domain.id()) + 10);
+  const ControlServer daemon({.socket = runtime() / "telehug/passive.sock", .group = {}});
+  fs::permissions(runtime() / "telehug/passive.sock", fs::perms::none);
+  as_nobody = true;
+  expect("passive",
+         {"daemon of another group", "warn", "daemon", "passive.sock may not be used by ", "then log in again"});
+  expect("passive", {"", "ok", "ports", "telehug's are free, or its own", ""});
 }
 
 // A `systemctl` that says what systemd 252's said of a unit that could not start.

@@ -132,6 +132,25 @@ TEST(DoctorChecks, AFixedRigIsJudgedAsItsServiceHasIt) {
   EXPECT_THAT(check_calibration(facts).front().fix, HasSubstr("sudo telehug doctor"));
 }
 
+TEST(DoctorChecks, ADaemonOutOfReachIsNotTakenForAbsentNorItsPortsForAnothers) {
+  DoctorFacts facts = facts_of(Side::passive);
+  facts.asked_by = "mia";
+  facts.udp_ports = {26660};
+  facts.tcp_ports = {8080};
+  facts.sides[0].web_port = 8080;
+  EXPECT_EQ(check_ports(facts).size(), 2U);
+  facts.sides[0].denied_socket = "/run/telehug/passive.sock";
+  ASSERT_EQ(check_ports(facts).size(), 1U);
+  EXPECT_EQ(check_ports(facts)[0].level, Level::ok);
+  ASSERT_EQ(check_daemons(facts).size(), 1U);
+  EXPECT_EQ(check_daemons(facts)[0].what,
+            "telehug-passive is there, but /run/telehug/passive.sock may not be used by mia");
+  EXPECT_EQ(check_daemons(facts)[0].fix, "sudo usermod -aG telehug mia, then log in again");
+  // A PC's two sides share the UDP ports.
+  facts.sides.push_back(facts_of(Side::active).sides[0]);
+  EXPECT_EQ(check_ports(facts)[0].level, Level::ok);
+}
+
 TEST(DoctorChecks, LightIsJudgedByWhatTheCameraMeasures) {
   DoctorFacts facts = facts_of(Side::active);
   LightFacts& light = facts.light.emplace();
