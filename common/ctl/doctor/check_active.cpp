@@ -139,6 +139,8 @@ Findings check_session(const DoctorFacts& facts) {
   if (facts.display.empty() && facts.wayland.empty()) {
     // The unit of a user, or somebody at another terminal, has the desktop that this shell lacks.
     if (talks(facts, Side::active)) return {{"screen", Level::ok, "the daemon's; this shell has none", {}}};
+    if (facts.through_sudo)
+      return {{"screen", Level::ok, "not looked at: sudo hides the desktop, telehug doctor without it does not", {}}};
     return fail("there is no desktop to look at in this session",
                 "run telehug-active in the session of the person at the monitor");
   }

@@ -100,6 +100,10 @@ Findings check_units(const DoctorFacts& facts) {
 
 Findings check_daemons(const DoctorFacts& facts) {
   Findings findings;
+  for (const Side side : facts.not_of_root)
+    findings.push_back({"daemon", Level::warn,
+                        fmt::format("telehug-{} is not the system's, and root can't tell whose", side_name(side)),
+                        fmt::format("telehug doctor {}, without sudo", side_name(side))});
   for (const SideFacts& side : facts.sides)
     if (!side.denied_socket.empty())
       findings.push_back({"daemon", Level::warn,

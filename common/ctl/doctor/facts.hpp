@@ -140,7 +140,11 @@ struct DoctorFacts {
   std::string bluez_trouble;       // "what; what to do"; empty: none
   // this PC
   std::string asked_by;  // the user
-  std::string kernel;    // /proc/version
+  bool through_sudo = false;
+  // Sides that are not the system's on a PC whose other side is: root, who may look at that one, does not stand for
+  // whom these are.
+  std::vector<Side> not_of_root;
+  std::string kernel;  // /proc/version
   std::optional<bool> clock_synchronised;
   std::vector<int> udp_ports;              // in use on this PC
   std::vector<int> tcp_ports;              // that somebody listens on
@@ -159,7 +163,9 @@ struct DoctorWishes {
   bool ask_bootloader = false;       // resets the jacket's board
 };
 
-// Takes up to some seconds: it asks programs, daemons, the camera, the other PC.
+// Takes up to some seconds: it asks programs, daemons, the camera, the other PC. Under sudo(8) and on a PC none of
+// whose sides is the system's service, the process is from then on the user's who asked: root has only read the
+// firewall.
 [[nodiscard]] DoctorFacts gather_facts(const DoctorWishes& wishes);
 
 }  // namespace telehug

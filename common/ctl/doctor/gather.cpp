@@ -13,6 +13,7 @@
 #include <sstream>
 
 #include "ctl/daemons.hpp"
+#include "ctl/doctor/behind_sudo.hpp"
 #include "ctl/doctor/checks.hpp"
 #include "service/control_socket.hpp"
 
@@ -66,6 +67,13 @@ bool groups_have(const Account& account, gid_t group) {
   getgrouplist(account.name.c_str(), found->pw_gid, groups.data(), &count);
   const auto end = groups.begin() + std::clamp(count, 0, static_cast<int>(groups.size()));
   return std::find(groups.begin(), end, group) != end;
+}
+
+// Does the system's service run a side that is asked about?
+bool is_the_systems(const DoctorWishes& wishes) {
+  const std::vector<Side> both{Side::active, Side::passive};
+  return std::ranges::any_of(wishes.sides.empty() ? both : wishes.sides,
+                             [&](Side side) { return account_of(units_of(side, wishes.root), wishes.system).service; });
 }
 
 }  // namespace
@@ -125,8 +133,17 @@ void add_named(std::vector<DeviceNode>& nodes, const fs::path& root, const std::
   if (!known && fs::exists(path, ignored)) nodes.push_back(device_node(root, path, account));
 }
 
-DoctorFacts gather_facts(const DoctorWishes& wishes) {
+DoctorFacts gather_facts(const DoctorWishes& asked) {
   DoctorFacts facts;
+  DoctorWishes wishes = asked;
+  gather_firewall(facts);
+  const auto asker = asker_behind_sudo();
+  facts.through_sudo = asker.has_value();
+  const bool root_stays = asker && is_the_systems(wishes);
+  if (asker && !root_stays) {
+    become(*asker);
+    if (!wishes.system) wishes.sources.user_folder = usual_config_sources().user_folder;
+  }
   facts.asked_by = own_account().name;
   facts.kernel = content_of(wishes.root / "proc/version");
   const std::vector<fs::path> denied = ask_daemons(facts);
@@ -136,6 +153,10 @@ DoctorFacts gather_facts(const DoctorWishes& wishes) {
     side.side = name;
     side.units = units_of(name, wishes.root);
     side.account = account_of(side.units, wishes.system);
+    if (asker && root_stays && side.account.self) {
+      facts.not_of_root.push_back(name);
+      continue;
+    }
     if (!talks(facts, name)) side.denied_socket = denied_socket(side, denied);
     of_side.sources = sources_of(side.account, wishes.sources);
     const StateOfService state(!side.account.self);

@@ -68,6 +68,8 @@ void gather_either(const DoctorFacts& facts, SideFacts& side, const PeerConfig& 
 void gather_active(DoctorFacts& facts, const DoctorWishes& wishes, SideFacts& side);
 void gather_passive(DoctorFacts& facts, const DoctorWishes& wishes, SideFacts& side);
 void gather_network(DoctorFacts& facts, const DoctorWishes& wishes);
+// nftables' rules, which root alone may read.
+void gather_firewall(DoctorFacts& facts);
 // How the configured addresses answer; waits up to 4.5 s for all of them together.
 [[nodiscard]] std::vector<PeerProbe> probe_peers(const std::string& addresses, int domain);
 

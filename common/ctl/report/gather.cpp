@@ -161,6 +161,7 @@ std::string make_report(const ConfigChoice& choice) {
   wishes.sources = choice.sources();
   wishes.system = choice.system;
   const DoctorFacts facts = gather_facts(wishes);
+  wishes.sources = choice.sources();  // under sudo that may be another person's by now
 
   Masker masker;
   hide_this_pc(masker);

@@ -155,6 +155,24 @@ TEST_F(BrokenPcByItself, ADaemonThatDoesNotRunIsNamed) {
   expect("passive", {"daemon not running", "warn", "daemon", "telehug-passive does not run", "telehug-passive run"});
 }
 
+// What root has of telehug is nothing: all is in the home of who asks.
+TEST_F(BrokenPcByItself, SudoHasTheFirewallReadAndAllElseLookedAtAsWhoAsks) {
+  if (::geteuid() != 0) GTEST_SKIP() << "only root can stand for somebody else";
+  const fs::path home = root().parent_path();
+  write(".config/telehug/active.toml", "[body_map]\npicture = \"chat.jpg\"\n[peer]\ndomain = 78\n");
+  fs::create_directories(home / ".local/state");
+  fs::rename(state(), home / ".local/state/telehug");
+  write("passwd", "root:x:0:0::/root:/bin/sh\nmia:x:65534:65534::" + home.string() + ":/bin/sh\n");
+  for (const char* variable : {"HOME=/root", "XDG_CONFIG_HOME=", "XDG_STATE_HOME=", "SUDO_UID=65534", "SUDO_USER=mia"})
+    set(variable);
+  before = "chown -R --no-dereference 65534:65534 " + home.string() + "; chmod 700 " + home.string() +
+           "; unshare -n -m sh -c 'mount --bind " + (home / "passwd").string() +
+           " /etc/passwd; nft add table inet f; nft \"add chain inet f in { type filter hook input priority 0; policy "
+           "drop; }\"; exec \"$@\"' sh";
+  expect("active",
+         {"firewall closed, by sudo", "fail", "firewall", "UDP port 26900", "let UDP ports 26900 to 26929 in"});
+}
+
 // The user's unit is there, too, as the package installs it, and not used.
 TEST_F(BrokenPcByItself, AFixedRigWhoseUnitHasFailedIsNamed) {
   fs::create_directories(root() / "run/systemd/system");

@@ -151,6 +151,22 @@ TEST(DoctorChecks, ADaemonOutOfReachIsNotTakenForAbsentNorItsPortsForAnothers) {
   EXPECT_EQ(check_ports(facts)[0].level, Level::ok);
 }
 
+TEST(DoctorChecks, ASideThatIsNotRootsIsLeftToWhoseItIs) {
+  DoctorFacts facts = facts_of(Side::passive);
+  facts.daemons.push_back(Json{{"side", "passive"}, {"peer", {{"connected", true}}}});
+  facts.not_of_root = {Side::active};
+  EXPECT_EQ(check_daemons(facts).front().level, Level::warn);
+  EXPECT_EQ(check_daemons(facts).front().fix, "telehug doctor active, without sudo");
+}
+
+TEST(DoctorChecks, ADesktopThatSudoHidesIsNotMissed) {
+  DoctorFacts facts = facts_of(Side::active);
+  facts.wants_screen = true;
+  EXPECT_EQ(check_session(facts).front().level, Level::fail);
+  facts.through_sudo = true;
+  EXPECT_EQ(check_session(facts).front().level, Level::ok);
+}
+
 TEST(DoctorChecks, LightIsJudgedByWhatTheCameraMeasures) {
   DoctorFacts facts = facts_of(Side::active);
   LightFacts& light = facts.light.emplace();
