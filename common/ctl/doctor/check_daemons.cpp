@@ -55,8 +55,9 @@ void add_daemon(Findings& findings, const nlohmann::json& status) {
         {"daemon", level, fmt::format("{}: {}", name, problem.value("what", "")), problem.value("do", "")});
   if (problems.empty()) findings.push_back({"daemon", Level::ok, name + " runs and has no complaint", {}});
   if (!status.value("peer", nlohmann::json::object()).value("connected", false))
-    findings.push_back({"peer", Level::warn, name + ": the other PC is not connected",
-                        "is its daemon running? `telehug status` there, and docs/between-homes.md"});
+    findings.push_back(
+        {"peer", Level::warn, name + ": the other PC is not connected",
+         "is its daemon running? `telehug status` there, and /usr/share/doc/telehug-common/docs/between-homes.md"});
   else
     findings.push_back({"peer", Level::ok, name + ": the other PC is connected", {}});
   const auto jacket = status.value("jacket", nlohmann::json::object());

@@ -20,9 +20,14 @@ int first_port(const SideFacts& side) {
 }
 
 Finding firewall_finding(const DoctorFacts& facts, int port) {
+  const int last = port + ports_of_a_domain - 1;
+  const auto closing = closing_chain(*facts.firewall, port);
   const std::string let_in =
-      fmt::format("let UDP ports {} to {} in from the other PC: deploy/firewall/telehug.nft, docs/between-homes.md",
-                  port, port + ports_of_a_domain - 1);
+      closing ? fmt::format(
+                    "let UDP ports {} to {} in from the other PC, whose address stands for PEER: {} (and keep "
+                    "that over the next start); /usr/share/doc/telehug-common/docs/between-homes.md",
+                    port, last, opening_command(*closing, "PEER", port, last))
+              : "";
   switch (judge_firewall(*facts.firewall, port)) {
     case FirewallVerdict::keeps_out:
       return {"firewall", Level::fail, fmt::format("it keeps out what comes to UDP port {}", port), let_in};

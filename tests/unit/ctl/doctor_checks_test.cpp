@@ -3,7 +3,11 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
+#include <filesystem>
 #include <fstream>
+#include <iterator>
+#include <string>
 
 namespace telehug {
 namespace {
@@ -51,11 +55,30 @@ TEST(DoctorChecks, AFirewallIsJudgedByThePortsOfTheDomainAndOnlyIfItMayBeRead) {
   facts.sides[0].domain = 78;
   EXPECT_EQ(check_firewall(facts).front().level, Level::fail);
   EXPECT_THAT(check_firewall(facts).front().fix, HasSubstr("26900 to 26929"));
+  EXPECT_THAT(check_firewall(facts).front().fix,
+              HasSubstr("sudo nft insert rule inet f in ip saddr PEER udp dport 26900-26929 accept"));
   facts.sides[0].loopback_only = true;
   EXPECT_TRUE(check_firewall(facts).empty());
   facts.sides[0].loopback_only = false;
   facts.firewall_is_secret = true;
   EXPECT_THAT(check_firewall(facts).front().fix, HasSubstr("sudo"));
+}
+
+// On an installed PC: deploy/packages/packages.cmake puts docs/ there.
+TEST(DoctorChecks, NameNoPageButInstalledOnes) {
+  const std::string installed = "/usr/share/doc/telehug-common/";
+  int pages = 0;
+  for (const auto& file : std::filesystem::directory_iterator(TELEHUG_SOURCE "/common/ctl/doctor")) {
+    std::ifstream stream(file.path());
+    const std::string text((std::istreambuf_iterator<char>(stream)), {});
+    EXPECT_EQ(text.find("deploy/"), std::string::npos) << file.path();
+    for (std::size_t at = text.find("docs/"); at != std::string::npos; at = text.find("docs/", at + 1), ++pages) {
+      const std::string page = text.substr(at, text.find_first_of("\" ,;)", at) - at);
+      EXPECT_EQ(text.substr(at - std::min(at, installed.size()), installed.size()), installed) << page;
+      EXPECT_TRUE(std::filesystem::exists(std::filesystem::path(TELEHUG_SOURCE) / page)) << page;
+    }
+  }
+  EXPECT_GT(pages, 0);
 }
 
 TEST(DoctorChecks, RulesOfTheOldIptablesAreNotTakenForJudged) {
