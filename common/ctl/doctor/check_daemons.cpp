@@ -124,10 +124,10 @@ Findings check_daemons(const DoctorFacts& facts) {
 
 Findings all_checks(const DoctorFacts& facts) {
   Findings all;
-  for (const auto check :
-       {check_config, check_camera, check_light, check_monitor, check_calibration, check_session, check_serial,
-        check_bootloader, check_bluetooth, check_kernel, check_clock, check_ports, check_firewall, check_peers,
-        check_pairs, check_state_folder, check_disk, check_units, check_daemons}) {
+  for (const auto check : {check_config,  check_camera,       check_light,  check_monitor,    check_calibration,
+                           check_session, check_jacket,       check_serial, check_bootloader, check_bluetooth,
+                           check_kernel,  check_clock,        check_ports,  check_firewall,   check_peers,
+                           check_pairs,   check_state_folder, check_disk,   check_units,      check_daemons}) {
     Findings more = check(facts);
     std::move(more.begin(), more.end(), std::back_inserter(all));
   }

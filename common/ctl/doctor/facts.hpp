@@ -130,6 +130,7 @@ struct DoctorFacts {
   bool wayland_answers = false;
   std::string portal_trouble;  // why no screen can be shared through the desktop's portal; empty: it can
   // passive side
+  bool jacket_is_simulated = false;
   std::string serial_port;  // as configured; "auto"; empty: the jacket has none
   std::vector<DeviceNode> serial_ports;
   BootloaderKind bootloader = BootloaderKind::not_asked;

@@ -262,6 +262,16 @@ TEST(DoctorChecks, KnowTheFirmwareThatIsBuilt) {
   EXPECT_THAT(text, HasSubstr("set(TELEHUG_FIRMWARE_VERSION " + std::to_string(newest_firmware) + ")"));
 }
 
+TEST(DoctorChecks, ASimulatedJacketIsToldWithTheFileOfWhoseItIs) {
+  DoctorFacts facts = facts_of(Side::passive);
+  EXPECT_TRUE(check_jacket(facts).empty());
+  facts.jacket_is_simulated = true;
+  EXPECT_EQ(check_jacket(facts).front().level, Level::warn);
+  EXPECT_THAT(check_jacket(facts).front().fix, HasSubstr("~/.config/telehug/passive.toml"));
+  facts.sides[0].account = {"telehug", false, true};
+  EXPECT_THAT(check_jacket(facts).front().fix, HasSubstr("/etc/telehug/passive.toml"));
+}
+
 TEST(DoctorChecks, SeveralPortsAreAnErrorOnlyForTheOneThatIsFoundByItself) {
   DoctorFacts facts = facts_of(Side::passive);
   facts.serial_ports = {{"/dev/a", true}, {"/dev/b", true}};
