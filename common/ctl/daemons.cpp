@@ -55,15 +55,17 @@ Daemons find_daemons(const DaemonChoice& choice) {
       daemons.unreachable.push_back(
           {ExitCode::permission,
            fmt::format("the socket {} may not be used by this user: ask as root, or join the group that owns it",
-                       socket.string())});
+                       socket.string()),
+           socket});
     } else if (std::get<ConnectFailure>(attempt) == ConnectFailure::other) {
       daemons.unreachable.push_back(
           {ExitCode::bad_answer,
-           fmt::format("the socket {} does not take connections: try again, or restart its daemon", socket.string())});
+           fmt::format("the socket {} does not take connections: try again, or restart its daemon", socket.string()),
+           socket});
     }
   }
   if (daemons.found.empty() && daemons.unreachable.empty()) {
-    daemons.unreachable.push_back({ExitCode::not_running, nobody_there(choice)});
+    daemons.unreachable.push_back({ExitCode::not_running, nobody_there(choice), {}});
   }
   return daemons;
 }

@@ -36,6 +36,7 @@ struct Daemon {
 struct Unreachable {
   ExitCode code = ExitCode::bad_answer;
   std::string sentence;
+  std::filesystem::path socket;  // empty: there is none
 };
 
 struct Daemons {

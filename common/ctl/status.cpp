@@ -2,6 +2,7 @@
 #include <fmt/core.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <memory>
 
 #include "ctl/command.hpp"
@@ -18,7 +19,7 @@ struct Options {
   bool check = false;
 };
 
-// What --check makes of a status; a fault is graver than a stop, a stop than an absent peer.
+// What --check makes of a status: the greater, the graver. A fault is graver than a stop, a stop than an absent peer.
 ExitCode verdict(const nlohmann::json& status) {
   const std::string state = status.contains("state") ? text_of(status["state"]) : "";
   if (state == "fault") return ExitCode::fault;
@@ -30,6 +31,7 @@ ExitCode verdict(const nlohmann::json& status) {
 ExitCode run(const Options& options) {
   Daemons daemons = find_daemons(options.daemons);
   ExitCode result = complain_of_unreachable(daemons);
+  ExitCode gravest = ExitCode::ok;
   auto all = nlohmann::json::array();
   for (Daemon& daemon : daemons.found) {
     const auto reply = daemon.client.ask({{"command", "status"}});
@@ -41,7 +43,7 @@ ExitCode run(const Options& options) {
       result = complain(daemon, ExitCode::refused, text_of((*reply)["error"]));
       continue;
     }
-    if (options.check && result == ExitCode::ok) result = verdict(*reply);
+    if (options.check) gravest = std::max(gravest, verdict(*reply));
     all.push_back(*reply);
   }
   if (options.json) {
@@ -50,7 +52,7 @@ ExitCode run(const Options& options) {
     for (std::size_t i = 0; i < all.size(); ++i)
       fmt::print("{}{}", i == 0 ? "" : "\n", status_text(all[i]));
   }
-  return result;
+  return result == ExitCode::ok ? gravest : result;
 }
 
 }  // namespace

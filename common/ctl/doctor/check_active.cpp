@@ -23,11 +23,15 @@ bool about(double a, double b) {
 }
 
 std::string calibrate_command(const DoctorFacts& facts) {
+  const Account& account = find_side(facts, Side::active)->account;
+  const std::string program =
+      account.self
+          ? "telehug-active calibrate"
+          : fmt::format("sudo -u {} env STATE_DIRECTORY=/var/lib/telehug telehug-active calibrate", account.name);
   if (facts.monitors.empty()) {
-    return "measure the visible picture with a ruler, then: telehug-active calibrate --width-mm WIDTH --height-mm "
-           "HEIGHT";
+    return "measure the visible picture with a ruler, then: " + program + " --width-mm WIDTH --height-mm HEIGHT";
   }
-  return fmt::format("telehug-active calibrate --width-mm {:.0f} --height-mm {:.0f}", facts.monitors.front().width_mm,
+  return fmt::format("{} --width-mm {:.0f} --height-mm {:.0f}", program, facts.monitors.front().width_mm,
                      facts.monitors.front().height_mm);
 }
 
@@ -106,6 +110,9 @@ Findings check_monitor(const DoctorFacts& facts) {
 Findings check_calibration(const DoctorFacts& facts) {
   if (find_side(facts, Side::active) == nullptr) return {};
   const CalibrationFacts& rig = facts.calibration;
+  if (rig.secret)
+    return {{"calibration", Level::warn, fmt::format("{} is not for this user to look for", rig.file),
+             "sudo telehug doctor --system"}};
   if (!rig.there)
     return {{"calibration", Level::fail, fmt::format("there is no calibration at {}", rig.file),
              "on the page that `telehug open` shows, or: " + calibrate_command(facts)}};
@@ -126,9 +133,14 @@ Findings check_session(const DoctorFacts& facts) {
   const auto fail = [](const std::string& what, const std::string& fix) {
     return Findings{{"screen", Level::fail, what, fix}};
   };
+  // Its drop-in names the X server, and this shell's is another one.
+  if (!find_side(facts, Side::active)->account.self)
+    return {{"screen", Level::ok, fmt::format("as {}.service has it", system_unit(Side::active)), {}}};
   if (facts.display.empty() && facts.wayland.empty()) {
     // The unit of a user, or somebody at another terminal, has the desktop that this shell lacks.
     if (talks(facts, Side::active)) return {{"screen", Level::ok, "the daemon's; this shell has none", {}}};
+    if (facts.through_sudo)
+      return {{"screen", Level::ok, "not looked at: sudo hides the desktop, telehug doctor without it does not", {}}};
     return fail("there is no desktop to look at in this session",
                 "run telehug-active in the session of the person at the monitor");
   }

@@ -37,6 +37,10 @@ Finding unit_finding(const UnitFacts& unit) {
   return {"unit", Level::ok, unit.name + " runs", {}};
 }
 
+bool is_idle(const UnitFacts& unit) {
+  return unit.active == "inactive" && unit.enabled != "enabled";
+}
+
 bool has_unit(const SideFacts& side) {
   return std::ranges::any_of(side.units, [](const UnitFacts& unit) { return unit.load == "loaded"; });
 }
@@ -51,8 +55,9 @@ void add_daemon(Findings& findings, const nlohmann::json& status) {
         {"daemon", level, fmt::format("{}: {}", name, problem.value("what", "")), problem.value("do", "")});
   if (problems.empty()) findings.push_back({"daemon", Level::ok, name + " runs and has no complaint", {}});
   if (!status.value("peer", nlohmann::json::object()).value("connected", false))
-    findings.push_back({"peer", Level::warn, name + ": the other PC is not connected",
-                        "is its daemon running? `telehug status` there, and docs/between-homes.md"});
+    findings.push_back(
+        {"peer", Level::warn, name + ": the other PC is not connected",
+         "is its daemon running? `telehug status` there, and /usr/share/doc/telehug-common/docs/between-homes.md"});
   else
     findings.push_back({"peer", Level::ok, name + ": the other PC is connected", {}});
   const auto jacket = status.value("jacket", nlohmann::json::object());
@@ -83,11 +88,11 @@ Findings check_units(const DoctorFacts& facts) {
   Findings findings;
   for (const SideFacts& side : facts.sides) {
     // Of the two that the active side has one is enough; who runs it by hand needs none.
-    const bool one_runs = std::ranges::any_of(side.units, [](const UnitFacts& u) { return u.active == "active"; });
+    const bool one_is_used =
+        std::ranges::any_of(side.units, [](const UnitFacts& u) { return u.load == "loaded" && !is_idle(u); });
     for (const UnitFacts& unit : side.units) {
       if (unit.load != "loaded") continue;
-      const bool idle = unit.active == "inactive" && unit.enabled != "enabled";
-      if (idle && (one_runs || talks(facts, side.side) || &unit != &side.units.front())) continue;
+      if (is_idle(unit) && (one_is_used || talks(facts, side.side) || &unit != &side.units.front())) continue;
       findings.push_back(unit_finding(unit));
     }
   }
@@ -96,8 +101,17 @@ Findings check_units(const DoctorFacts& facts) {
 
 Findings check_daemons(const DoctorFacts& facts) {
   Findings findings;
+  for (const Side side : facts.not_of_root)
+    findings.push_back({"daemon", Level::warn,
+                        fmt::format("telehug-{} is not the system's, and root can't tell whose", side_name(side)),
+                        fmt::format("telehug doctor {}, without sudo", side_name(side))});
   for (const SideFacts& side : facts.sides)
-    if (!talks(facts, side.side))
+    if (!side.denied_socket.empty())
+      findings.push_back({"daemon", Level::warn,
+                          fmt::format("telehug-{} is there, but {} may not be used by {}", side_name(side.side),
+                                      side.denied_socket, facts.asked_by),
+                          fmt::format("sudo usermod -aG telehug {}, then log in again", facts.asked_by)});
+    else if (!talks(facts, side.side))
       findings.push_back({"daemon", Level::warn, fmt::format("telehug-{} does not run", side_name(side.side)),
                           has_unit(side) ? "see unit, or telehug-" + side_name(side.side) + " run"
                                          : fmt::format("telehug-{} run", side_name(side.side))});
@@ -110,10 +124,10 @@ Findings check_daemons(const DoctorFacts& facts) {
 
 Findings all_checks(const DoctorFacts& facts) {
   Findings all;
-  for (const auto check :
-       {check_config, check_camera, check_light, check_monitor, check_calibration, check_session, check_serial,
-        check_bootloader, check_bluetooth, check_kernel, check_clock, check_ports, check_firewall, check_peers,
-        check_pairs, check_state_folder, check_disk, check_units, check_daemons}) {
+  for (const auto check : {check_config,  check_camera,       check_light,  check_monitor,    check_calibration,
+                           check_session, check_jacket,       check_serial, check_bootloader, check_bluetooth,
+                           check_kernel,  check_clock,        check_ports,  check_firewall,   check_peers,
+                           check_pairs,   check_state_folder, check_disk,   check_units,      check_daemons}) {
     Findings more = check(facts);
     std::move(more.begin(), more.end(), std::back_inserter(all));
   }

@@ -23,6 +23,16 @@ Finding two_part(const std::string& check, const std::string& trouble) {
 
 }  // namespace
 
+Findings check_jacket(const DoctorFacts& facts) {
+  const SideFacts* side = find_side(facts, Side::passive);
+  if (side == nullptr || !facts.jacket_is_simulated) return {};
+  return {{"jacket", Level::warn,
+           "the jacket is a simulated one: nobody feels anything, and the other side is told that touches are felt",
+           fmt::format("name the real one: set link of [jacket] in {}/passive.toml, as \"serial:auto\"; then start "
+                       "telehug-passive again",
+                       side->account.service ? "/etc/telehug" : "~/.config/telehug")}};
+}
+
 Findings check_serial(const DoctorFacts& facts) {
   const SideFacts* side = find_side(facts, Side::passive);
   if (side == nullptr || facts.serial_port.empty()) return {};

@@ -20,9 +20,14 @@ int first_port(const SideFacts& side) {
 }
 
 Finding firewall_finding(const DoctorFacts& facts, int port) {
+  const int last = port + ports_of_a_domain - 1;
+  const auto closing = closing_chain(*facts.firewall, port);
   const std::string let_in =
-      fmt::format("let UDP ports {} to {} in from the other PC: deploy/firewall/telehug.nft, docs/between-homes.md",
-                  port, port + ports_of_a_domain - 1);
+      closing ? fmt::format(
+                    "let UDP ports {} to {} in from the other PC, whose address stands for PEER: {} (and keep "
+                    "that over the next start); /usr/share/doc/telehug-common/docs/between-homes.md",
+                    port, last, opening_command(*closing, "PEER", port, last))
+              : "";
   switch (judge_firewall(*facts.firewall, port)) {
     case FirewallVerdict::keeps_out:
       return {"firewall", Level::fail, fmt::format("it keeps out what comes to UDP port {}", port), let_in};
@@ -62,12 +67,14 @@ Findings check_clock(const DoctorFacts& facts) {
 
 Findings check_ports(const DoctorFacts& facts) {
   Findings findings;
+  const auto is_denied = [](const SideFacts& side) { return !side.denied_socket.empty(); };
+  const bool all_told = facts.daemons.empty() && std::ranges::none_of(facts.sides, is_denied);
   for (const SideFacts& side : facts.sides) {
-    if (talks(facts, side.side)) continue;  // they are its own
+    if (talks(facts, side.side) || is_denied(side)) continue;  // they are its own
     const int first = first_port(side);
     const auto of_domain = [&](int port) { return port >= first && port < first + ports_of_a_domain; };
     const auto taken = std::ranges::find_if(facts.udp_ports, of_domain);
-    if (taken != facts.udp_ports.end() && facts.daemons.empty())
+    if (taken != facts.udp_ports.end() && all_told)
       findings.push_back({"ports", Level::warn,
                           fmt::format("another program uses the UDP port {} of telehug's", *taken),
                           "`ss -ulpn` tells which; end it, or set peer.domain to another number on both PCs"});
@@ -127,7 +134,8 @@ Findings check_pairs(const DoctorFacts& facts) {
     if (side.pairs.empty())
       findings.push_back({"pairs", Level::warn,
                           side_name(side.side) + ": there is no pair: only this PC itself is heard",
-                          "telehug pair invite here, telehug pair accept on the other PC"});
+                          (side.account.self ? "" : "sudo ") +
+                              std::string("telehug pair invite here, telehug pair accept on the other PC")});
     for (const PairFacts& pair : side.pairs) {
       for (const auto& [what, fix] : pair.faults)
         findings.push_back({"pairs", Level::fail, fmt::format("{}: {}", pair.id, what), fix});

@@ -29,6 +29,7 @@ inline constexpr int newest_firmware = 3;  // held to the firmware's by a test
 [[nodiscard]] Findings check_monitor(const DoctorFacts& facts);
 [[nodiscard]] Findings check_calibration(const DoctorFacts& facts);
 [[nodiscard]] Findings check_session(const DoctorFacts& facts);
+[[nodiscard]] Findings check_jacket(const DoctorFacts& facts);
 [[nodiscard]] Findings check_serial(const DoctorFacts& facts);
 [[nodiscard]] Findings check_bootloader(const DoctorFacts& facts);
 [[nodiscard]] Findings check_bluetooth(const DoctorFacts& facts);

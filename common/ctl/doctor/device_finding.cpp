@@ -5,14 +5,12 @@
 
 #include <algorithm>
 
-#include "service/control_socket.hpp"
-
 namespace telehug {
 namespace {
 
 std::string join_group(const std::string& group, const SideFacts& side) {
   const std::string add = fmt::format("sudo usermod -aG {} {}", group, side.account.name);
-  return side.account.service ? fmt::format("{}, then sudo systemctl restart telehug-{}", add, side_name(side.side))
+  return side.account.service ? fmt::format("{}, then sudo systemctl restart {}", add, system_unit(side.side))
                               : add + ", then log in again";
 }
 

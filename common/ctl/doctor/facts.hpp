@@ -27,6 +27,7 @@ struct MonitorSize {
 struct CalibrationFacts {
   std::string file;
   bool there = false;
+  bool secret = false;  // from the user who asks: it is the service's
   std::string trouble;  // why it can't be read
   double width_mm = 0;  // of the visible screen
   double height_mm = 0;
@@ -85,6 +86,12 @@ struct PeerProbe {
   PeerAnswer answer = PeerAnswer::silent;
 };
 
+// The system's unit of a side, without ".service"; the active side's is a fixed rig's. The user's is
+// telehug-active alone.
+[[nodiscard]] constexpr const char* system_unit(Side side) {
+  return side == Side::active ? "telehug-active-rig" : "telehug-passive";
+}
+
 struct SideFacts {
   Side side = Side::active;
   Account account;
@@ -98,6 +105,7 @@ struct SideFacts {
   std::vector<PeerProbe> peers;  // of the configured addresses, while the other PC is not connected
   int web_port = 0;              // 0: the kernel chooses one
   std::vector<UnitFacts> units;
+  std::string denied_socket;  // of its daemon, which is there and this user may not ask; empty: it is not so
 };
 
 enum class BootloaderKind { not_asked, none, good, old };
@@ -122,6 +130,7 @@ struct DoctorFacts {
   bool wayland_answers = false;
   std::string portal_trouble;  // why no screen can be shared through the desktop's portal; empty: it can
   // passive side
+  bool jacket_is_simulated = false;
   std::string serial_port;  // as configured; "auto"; empty: the jacket has none
   std::vector<DeviceNode> serial_ports;
   BootloaderKind bootloader = BootloaderKind::not_asked;
@@ -131,6 +140,11 @@ struct DoctorFacts {
   bool bluetooth_blocked = false;  // rfkill(8)
   std::string bluez_trouble;       // "what; what to do"; empty: none
   // this PC
+  std::string asked_by;  // the user
+  bool through_sudo = false;
+  // Sides that are not the system's on a PC whose other side is: root, who may look at that one, does not stand for
+  // whom these are.
+  std::vector<Side> not_of_root;
   std::string kernel;  // /proc/version
   std::optional<bool> clock_synchronised;
   std::vector<int> udp_ports;              // in use on this PC
@@ -150,7 +164,9 @@ struct DoctorWishes {
   bool ask_bootloader = false;       // resets the jacket's board
 };
 
-// Takes up to some seconds: it asks programs, daemons, the camera, the other PC.
+// Takes up to some seconds: it asks programs, daemons, the camera, the other PC. Under sudo(8) and on a PC none of
+// whose sides is the system's service, the process is from then on the user's who asked: root has only read the
+// firewall.
 [[nodiscard]] DoctorFacts gather_facts(const DoctorWishes& wishes);
 
 }  // namespace telehug

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ctl/doctor/firewall.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <deque>
 #include <optional>
@@ -40,10 +42,22 @@ class Ruleset {
       if (verdict == Verdict::go_on || verdict == Verdict::leave)
         verdict = text(*chain, "policy") == "drop" ? Verdict::drop : Verdict::accept;
       // An accept of one chain is an accept of this chain only.
+      if (verdict == Verdict::drop) closing_ = chain;
       if (verdict == Verdict::drop)
         return perhaps_accepted_ ? FirewallVerdict::lets_some_in : FirewallVerdict::keeps_out;
     }
     return perhaps_dropped_ ? FirewallVerdict::lets_some_in : FirewallVerdict::lets_in;
+  }
+
+  // After judge(): the base chain that keeps it out.
+  [[nodiscard]] std::optional<ClosingChain> closing() const {
+    if (closing_ == nullptr) return std::nullopt;
+    ClosingChain chain{text(*closing_, "family"), text(*closing_, "table"), text(*closing_, "name"), false};
+    chain.of_ufw = std::ranges::any_of(*all_, [&](const Json& entry) {
+      const auto other = entry.find("chain");
+      return other != entry.end() && same_table(*other, *closing_) && text(*other, "name").starts_with("ufw-");
+    });
+    return chain;
   }
 
  private:
@@ -236,6 +250,7 @@ class Ruleset {
   }
 
   const Json* all_ = nullptr;
+  const Json* closing_ = nullptr;
   int port_;
   std::deque<Json> scratch_;  // whose elements stay where they are
   bool perhaps_accepted_ = false;
@@ -246,6 +261,24 @@ class Ruleset {
 
 FirewallVerdict judge_firewall(const nlohmann::json& ruleset, int udp_port) {
   return Ruleset(ruleset, udp_port).judge();
+}
+
+std::optional<ClosingChain> closing_chain(const nlohmann::json& ruleset, int udp_port) {
+  Ruleset rules(ruleset, udp_port);
+  if (rules.judge() != FirewallVerdict::keeps_out) return std::nullopt;
+  return rules.closing();
+}
+
+std::string opening_command(const ClosingChain& chain, const std::string& sender, int first_port, int last_port) {
+  if (chain.of_ufw)
+    return fmt::format("sudo ufw allow proto udp from {} to any port {}:{}", sender, first_port, last_port);
+  if (chain.table == "firewalld")
+    return fmt::format(
+        "sudo firewall-cmd --permanent --add-rich-rule='rule family=\"ipv4\" source address=\"{}\" port "
+        "port=\"{}-{}\" protocol=\"udp\" accept'; sudo firewall-cmd --reload",
+        sender, first_port, last_port);
+  return fmt::format("sudo nft insert rule {} {} {} ip saddr {} udp dport {}-{} accept", chain.family, chain.table,
+                     chain.name, sender, first_port, last_port);
 }
 
 }  // namespace telehug

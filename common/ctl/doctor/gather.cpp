@@ -9,11 +9,13 @@
 
 #include <algorithm>
 #include <array>
-#include <cstdlib>
 #include <fstream>
 #include <sstream>
 
 #include "ctl/daemons.hpp"
+#include "ctl/doctor/behind_sudo.hpp"
+#include "ctl/doctor/checks.hpp"
+#include "service/control_socket.hpp"
 
 namespace telehug {
 namespace fs = std::filesystem;
@@ -21,24 +23,9 @@ namespace {
 
 constexpr uid_t first_login = 1000;  // Debian Policy 9.2.2
 
-// Finds its files where the system's unit has them, whoever asks.
-class StateOfService {
- public:
-  explicit StateOfService(bool wanted) : set_(wanted && std::getenv(variable) == nullptr) {
-    if (set_) ::setenv(variable, "/var/lib/telehug", 0);
-  }
-  ~StateOfService() {
-    if (set_) ::unsetenv(variable);
-  }
-  StateOfService(const StateOfService&) = delete;
-  StateOfService& operator=(const StateOfService&) = delete;
-
- private:
-  static constexpr const char* variable = "STATE_DIRECTORY";
-  bool set_;
-};
-
-void ask_daemons(DoctorFacts& facts) {
+// The sockets that this user may not use are left for what is known of their sides.
+std::vector<fs::path> ask_daemons(DoctorFacts& facts) {
+  std::vector<fs::path> denied;
   Daemons daemons = find_daemons({});
   for (Daemon& daemon : daemons.found) {
     auto status = daemon.client.ask({{"command", "status"}});
@@ -49,8 +36,24 @@ void ask_daemons(DoctorFacts& facts) {
                                              "its daemon hangs: start it again");
   }
   for (const Unreachable& daemon : daemons.unreachable)
-    if (daemon.code != ExitCode::not_running)
+    if (daemon.code == ExitCode::permission)
+      denied.push_back(daemon.socket);
+    else if (daemon.code != ExitCode::not_running)
       facts.unreachable_daemons.emplace_back(daemon.sentence, "run `sudo telehug doctor`");
+  return denied;
+}
+
+// Whether a socket is in a folder that is closed to this user nobody can see: then the system's unit tells, if it can.
+std::string denied_socket(const SideFacts& side, const std::vector<fs::path>& denied) {
+  const bool unit_is_down = std::ranges::any_of(side.units, [](const UnitFacts& unit) {
+    return !unit.user && unit.load == "loaded" && unit.active != "active" && unit.active != "activating";
+  });
+  for (const fs::path& socket : denied) {
+    std::error_code hidden;
+    const bool seen = fs::exists(socket, hidden);
+    if (socket.stem() == side_name(side.side) && (seen || (hidden && !unit_is_down))) return socket.string();
+  }
+  return "";
 }
 
 bool groups_have(const Account& account, gid_t group) {
@@ -64,6 +67,13 @@ bool groups_have(const Account& account, gid_t group) {
   getgrouplist(account.name.c_str(), found->pw_gid, groups.data(), &count);
   const auto end = groups.begin() + std::clamp(count, 0, static_cast<int>(groups.size()));
   return std::find(groups.begin(), end, group) != end;
+}
+
+// Does the system's service run a side that is asked about?
+bool is_the_systems(const DoctorWishes& wishes) {
+  const std::vector<Side> both{Side::active, Side::passive};
+  return std::ranges::any_of(wishes.sides.empty() ? both : wishes.sides,
+                             [&](Side side) { return account_of(units_of(side, wishes.root), wishes.system).service; });
 }
 
 }  // namespace
@@ -97,6 +107,11 @@ Account own_account() {
   return {name_of_user(user), true, user != 0 && user < first_login};
 }
 
+ConfigSources sources_of(const Account& account, ConfigSources sources) {
+  if (!account.self && !sources.only_file) sources.user_folder.clear();
+  return sources;
+}
+
 bool may(const Account& account, const fs::path& path, int what) {
   if (account.self) return ::faccessat(AT_FDCWD, path.c_str(), what, AT_EACCESS) == 0;
   struct stat status {};
@@ -118,17 +133,32 @@ void add_named(std::vector<DeviceNode>& nodes, const fs::path& root, const std::
   if (!known && fs::exists(path, ignored)) nodes.push_back(device_node(root, path, account));
 }
 
-DoctorFacts gather_facts(const DoctorWishes& wishes) {
+DoctorFacts gather_facts(const DoctorWishes& asked) {
   DoctorFacts facts;
+  DoctorWishes wishes = asked;
+  gather_firewall(facts);
+  const auto asker = asker_behind_sudo();
+  facts.through_sudo = asker.has_value();
+  const bool root_stays = asker && is_the_systems(wishes);
+  if (asker && !root_stays) {
+    become(*asker);
+    if (!wishes.system) wishes.sources.user_folder = usual_config_sources().user_folder;
+  }
+  facts.asked_by = own_account().name;
   facts.kernel = content_of(wishes.root / "proc/version");
-  ask_daemons(facts);
+  const std::vector<fs::path> denied = ask_daemons(facts);
   for (const Side name : wishes.sides.empty() ? sides_here(wishes.sources, facts.daemons) : wishes.sides) {
     DoctorWishes of_side = wishes;
     SideFacts side;
     side.side = name;
     side.units = units_of(name, wishes.root);
     side.account = account_of(side.units, wishes.system);
-    if (!side.account.self && !of_side.sources.only_file) of_side.sources.user_folder.clear();
+    if (asker && root_stays && side.account.self) {
+      facts.not_of_root.push_back(name);
+      continue;
+    }
+    if (!talks(facts, name)) side.denied_socket = denied_socket(side, denied);
+    of_side.sources = sources_of(side.account, wishes.sources);
     const StateOfService state(!side.account.self);
     side.config_faults = inspect_config(of_side.sources, name).faults;
     name == Side::active ? gather_active(facts, of_side, side) : gather_passive(facts, of_side, side);

@@ -5,6 +5,7 @@
 
 #include <sys/types.h>
 
+#include <cstdlib>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -25,6 +26,26 @@ namespace telehug {
 // May this account do all of `what` (R_OK, W_OK, X_OK)? Asked of the kernel for the user who asks, else told by owner,
 // groups and mode.
 [[nodiscard]] bool may(const Account& account, const std::filesystem::path& path, int what);
+
+// What a daemon of this account reads, of what the user who asks does.
+[[nodiscard]] ConfigSources sources_of(const Account& account, ConfigSources sources);
+
+// Finds its files where the system's unit has them, whoever asks.
+class StateOfService {
+ public:
+  explicit StateOfService(bool wanted) : set_(wanted && std::getenv(variable) == nullptr) {
+    if (set_) ::setenv(variable, "/var/lib/telehug", 0);
+  }
+  ~StateOfService() {
+    if (set_) ::unsetenv(variable);
+  }
+  StateOfService(const StateOfService&) = delete;
+  StateOfService& operator=(const StateOfService&) = delete;
+
+ private:
+  static constexpr const char* variable = "STATE_DIRECTORY";
+  bool set_;
+};
 
 // A device as the configuration names it: without the root.
 [[nodiscard]] DeviceNode device_node(const std::filesystem::path& root, const std::filesystem::path& path,
@@ -47,6 +68,8 @@ void gather_either(const DoctorFacts& facts, SideFacts& side, const PeerConfig& 
 void gather_active(DoctorFacts& facts, const DoctorWishes& wishes, SideFacts& side);
 void gather_passive(DoctorFacts& facts, const DoctorWishes& wishes, SideFacts& side);
 void gather_network(DoctorFacts& facts, const DoctorWishes& wishes);
+// nftables' rules, which root alone may read.
+void gather_firewall(DoctorFacts& facts);
 // How the configured addresses answer; waits up to 4.5 s for all of them together.
 [[nodiscard]] std::vector<PeerProbe> probe_peers(const std::string& addresses, int domain);
 

@@ -190,9 +190,11 @@ void gather_active(DoctorFacts& facts, const DoctorWishes& wishes, SideFacts& si
       facts.cameras.push_back(device_node(wishes.root, device, side.account));
   add_named(facts.cameras, wishes.root, config.camera.device, side.account);
   // Below another root there are no cameras to look through; a recording is one anywhere.
-  const bool can_look = facts.wants_webcam ? camera_is_usable(facts) && wishes.root == "/" : static_cast<bool>(source);
+  const bool can_look = side.account.self && (facts.wants_webcam ? camera_is_usable(facts) && wishes.root == "/"
+                                                                 : static_cast<bool>(source));
   if (side.config_faults.empty() && can_look) facts.light = look_through_camera(facts, wishes.sources);
   facts.calibration = calibration_at(rig_file(config.rig));
+  facts.calibration.secret = side.pairs_secret && !facts.calibration.there;
   facts.configured_screen_width_mm = config.rig.screen.width_mm;
   facts.monitors = connected_monitors(wishes.root);
   const auto screen = parse_screen_source(config.body_map.source);

@@ -44,17 +44,6 @@ void add_ports(std::vector<int>& ports, const fs::path& file, const std::string&
   }
 }
 
-void gather_firewall(DoctorFacts& facts) {
-  for (const char* program : {"nft", "/usr/sbin/nft"}) {  // which is not in everybody's PATH
-    const auto run = run_program({program, "-j", "list", "ruleset"}, 5s, "there is no nft");
-    if (!run) continue;
-    auto rules = nlohmann::json::parse(run->output, nullptr, false);
-    facts.firewall_is_secret = run->code != 0;
-    if (run->code == 0 && rules.is_object()) facts.firewall = std::move(rules);
-    return;
-  }
-}
-
 class Probe {
  public:
   Probe(const std::string& text, int domain) : text_(text) {
@@ -134,6 +123,17 @@ std::vector<PeerProbe> probe_peers(const std::string& addresses, int domain) {
   return results;
 }
 
+void gather_firewall(DoctorFacts& facts) {
+  for (const char* program : {"nft", "/usr/sbin/nft"}) {  // which is not in everybody's PATH
+    const auto run = run_program({program, "-j", "list", "ruleset"}, 5s, "there is no nft");
+    if (!run) continue;
+    auto rules = nlohmann::json::parse(run->output, nullptr, false);
+    facts.firewall_is_secret = run->code != 0;
+    if (run->code == 0 && rules.is_object()) facts.firewall = std::move(rules);
+    return;
+  }
+}
+
 void gather_network(DoctorFacts& facts, const DoctorWishes& wishes) {
   timex clock{};
   if (const int state = ::adjtimex(&clock); state >= 0) facts.clock_synchronised = state != TIME_ERROR;
@@ -143,7 +143,6 @@ void gather_network(DoctorFacts& facts, const DoctorWishes& wishes) {
   for (const char* file : {"tcp", "tcp6"})
     add_ports(facts.tcp_ports, net / file, "0A");  // TCP_LISTEN
   facts.legacy_firewall = content_of(net / "ip_tables_names").find("filter") != std::string::npos;
-  gather_firewall(facts);
 }
 
 }  // namespace telehug

@@ -48,6 +48,7 @@ void gather_passive(DoctorFacts& facts, const DoctorWishes& wishes, SideFacts& s
   const PassiveConfig config = readable_passive_config(wishes.sources);
   gather_either(facts, side, config.peer, config.web);
   const auto link = parse_jacket_link(config.jacket.link);
+  facts.jacket_is_simulated = link && link->kind == JacketLinkKind::simulated;
   facts.wants_bluetooth = link && link->kind == JacketLinkKind::bluetooth;
   if (link && link->kind == JacketLinkKind::serial) facts.serial_port = link->path;
   for (const fs::path& port : entries(root / "dev/serial/by-id"))

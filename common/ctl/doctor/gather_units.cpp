@@ -64,10 +64,9 @@ std::vector<UnitFacts> units_of(Side side, const fs::path& root) {
   std::error_code ignored;
   if (!fs::exists(root / "run/systemd/system", ignored)) return {};  // sd_booted(3)
   std::vector<UnitFacts> units;
-  const std::string name = "telehug-" + side_name(side) + ".service";
   if (side == Side::active)
-    if (auto unit = ask_unit(name, true)) units.push_back(*std::move(unit));
-  if (auto unit = ask_unit(name, false)) units.push_back(*std::move(unit));
+    if (auto unit = ask_unit("telehug-active.service", true)) units.push_back(*std::move(unit));
+  if (auto unit = ask_unit(std::string(system_unit(side)) + ".service", false)) units.push_back(*std::move(unit));
   return units;
 }
 

@@ -48,16 +48,33 @@ std::string variable(const char* name) {
   return value == nullptr ? "" : value;
 }
 
+void hide_user(const passwd* user, Masker& masker) {
+  if (user == nullptr) return;
+  masker.hide(user->pw_name, "user");
+  masker.hide(user->pw_dir, "home");
+  const std::string full_name = user->pw_gecos == nullptr ? "" : user->pw_gecos;
+  masker.hide(full_name.substr(0, full_name.find(',')), "user");
+}
+
 void hide_this_pc(Masker& masker) {
   utsname names{};
   if (::uname(&names) == 0) masker.hide(names.nodename, "this PC");
   masker.hide(variable("HOME"), "home");
-  masker.hide(variable("USER"), "user");
-  if (const passwd* user = ::getpwuid(::geteuid()); user != nullptr) {
-    masker.hide(user->pw_name, "user");
-    const std::string full_name = user->pw_gecos == nullptr ? "" : user->pw_gecos;
-    masker.hide(full_name.substr(0, full_name.find(',')), "user");
+  hide_user(::getpwuid(::geteuid()), masker);
+  for (const char* name : {"USER", "SUDO_USER"}) {
+    masker.hide(variable(name), "user");
+    hide_user(::getpwnam(variable(name).c_str()), masker);
   }
+}
+
+// Also of pairs that are over: whoever the journal has lines about.
+void hide_peers_of_journal(Masker& masker) {
+  const auto run =
+      run_program({"journalctl", "--field=TELEHUG_PEER", "--no-pager", "-q"}, 10s, "there is no journalctl");
+  if (!run || run->code != 0) return;  // nor does this report tell of it, then
+  std::istringstream names(run->output);
+  for (std::string name; std::getline(names, name);)
+    if (name != "the other side") masker.hide(name, "name");  // as a peer without a pair is called
 }
 
 void hide_pairs(const PeerConfig& peer, Side side, Masker& masker) {
@@ -94,7 +111,7 @@ std::string versions() {
 }
 
 std::string journal_of(Side side, bool user) {
-  const std::string unit = "telehug-" + side_name(side);
+  const std::string unit = user ? "telehug-active" : system_unit(side);
   const std::string name = fmt::format("{} {}", user ? "--user-unit" : "-u", unit);
   const auto run = run_program({"journalctl", user ? "--user-unit=" + unit : "--unit=" + unit, "-n", journal_lines,
                                 "--no-pager", "--no-hostname", "-q", "-o", "short-iso"},
@@ -144,11 +161,15 @@ std::string make_report(const ConfigChoice& choice) {
   wishes.sources = choice.sources();
   wishes.system = choice.system;
   const DoctorFacts facts = gather_facts(wishes);
+  wishes.sources = choice.sources();  // under sudo that may be another person's by now
 
   Masker masker;
   hide_this_pc(masker);
+  hide_peers_of_journal(masker);
   for (const Side side : {Side::active, Side::passive}) {
     hide_texts_of(inspect_config(wishes.sources, side), masker);
+    hide_pairs(peer_of(wishes.sources, side), side, masker);
+    const StateOfService state(true);
     hide_pairs(peer_of(wishes.sources, side), side, masker);
   }
   for (const Json& status : facts.daemons)
@@ -160,7 +181,7 @@ std::string make_report(const ConfigChoice& choice) {
   text += heading("doctor") + masker.mask_free_text(doctor_text(all_checks(facts)));
   text += heading("configuration");
   for (const SideFacts& side : facts.sides)
-    text += config_section(inspect_config(wishes.sources, side.side), side.side, masker);
+    text += config_section(inspect_config(sources_of(side.account, wishes.sources), side.side), side.side, masker);
   text += heading("status");
   for (const SideFacts& side : facts.sides) {
     const Json* status = status_of(facts, side.side);

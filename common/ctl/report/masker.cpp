@@ -39,7 +39,7 @@ void replace_words(std::string& line, const std::string& secret, const std::stri
 using Rule = std::pair<std::regex, const char*>;
 
 const auto& rules() {
-  static const std::array<Rule, 11> all{{
+  static const std::array<Rule, 12> all{{
       {std::regex("TELEHUG:PAIR:[^\\s\"]+"), "[code]"},
       // Pairing codes: eight groups of five (Crockford's base 32).
       {std::regex("\\b([0-9A-Za-z]{5}[- ]){7}[0-9A-Za-z]{5}\\b"), "[code]"},
@@ -50,20 +50,51 @@ const auto& rules() {
       {std::regex("([0-9A-Fa-f]{2}[:_-]){5}[0-9A-Fa-f]{2}"), "[device address]"},
       {std::regex("\\b(?!127\\.|0\\.0\\.0\\.0\\b)\\d{1,3}(\\.\\d{1,3}){3}\\b"), "[address]"},
       {std::regex("\\b[0-9A-Fa-f]{1,4}(:[0-9A-Fa-f]{0,4}){3,7}"), "[address]"},
+      // Short IPv6 has "::", and a digit or the prefix of a local address: not C++'s scopes, whatever their letters.
+      {std::regex(
+           "\\b(?=[0-9A-Fa-f:]*[0-9]|(?:fe[89ab]|f[cd][0-9a-f])[0-9a-f]:)[0-9A-Fa-f]{1,4}(?::[0-9A-Fa-f]{1,4})*::"
+           "(?:[0-9A-Fa-f]{1,4}(?::[0-9A-Fa-f]{1,4})*)?(?![0-9A-Za-z_:])"),
+       "[address]"},
       {std::regex("\\b[0-9a-f]{16,}\\b"), "[id]"},
       {std::regex("[A-Za-z0-9+/]{40,}={0,2}"), "[key]"},
   }};
   return all;
 }
 
+// Where a message begins: behind the journal's "telehug-passive[7]: ", a log file's level, or doctor's daemon.
+std::size_t message_at(const std::string& line) {
+  static const std::regex front(
+      "^.*?(?:\\[\\d+\\]: |\\b(?:trace|debug|info|warning|error):? +|\\btelehug-(?:active|passive): )");
+  std::smatch found;
+  return std::regex_search(line, found, front) ? static_cast<std::size_t>(found.length()) : 0;
+}
+
+// For a whole message, without what is before it.
+const auto& message_rules() {
+  static const std::array<Rule, 4> all{{
+      // Both: when the second is said tells as much as the first.
+      {std::regex("^(?:.+: nothing is felt|touches may be felt)$"), "[text]"},
+      {std::regex("^.+: (no peer is connected)"), "[name]: $1"},
+      {std::regex("^(?!.*\\b(?:the other PC|the other side|no peer|a peer|when it) is connected).+ is connected$"),
+       "[name] is connected"},
+      {std::regex("^.+ hugs you"), "[name] hugs you"},
+  }};
+  return all;
+}
+
 const auto& free_text_rules() {
-  static const std::array<Rule, 6> all{{
+  static const std::array<Rule, 8> all{{
       {std::regex("\"[^\"]*\""), "\"[text]\""},
       {std::regex("(stopped(?: here| everything)?: ).*"), "$1[text]"},
       {std::regex("(is stopped: |is not ready: ).*"), "$1[text]"},
-      {std::regex("(paired with |the pair with ).*?( until| is | was )"), "$1[name]$2"},
-      {std::regex("[^\\s:]+( [^\\s:]+)? hugs you"), "[name] hugs you"},
       {std::regex("(quiet hours: ).*"), "$1[text]"},
+      {std::regex("(touch \\d+ (?:begins|ends) in box ).*"), "$1[text]"},
+      {std::regex("(paired with ).*( until)"), "$1[name]$2"},
+      {std::regex("(the pair with ).*( \\([^()]*\\) (?:can't be|is valid)| (?:is|was) renewed until| was revoked on|"
+                  " has expired on| ends on)"),
+       "$1[name]$2"},
+      // In whatever other sentence: what the name's end is nobody knows.
+      {std::regex("(the pair with )(?!\\[name\\]).*"), "$1[name]"},
   }};
   return all;
 }
@@ -85,7 +116,11 @@ std::string Masker::mask_line(std::string line, bool free_text) const {
   if (!free_text) return line;
   for (const auto& [pattern, word] : free_text_rules())
     line = std::regex_replace(line, pattern, word);
-  return line;
+  const std::size_t begin = message_at(line);
+  std::string message = line.substr(begin);
+  for (const auto& [pattern, word] : message_rules())
+    message = std::regex_replace(message, pattern, word);
+  return line.substr(0, begin) + message;
 }
 
 std::string Masker::mask_lines(std::string_view text, bool free_text) const {

@@ -42,6 +42,12 @@ TEST_F(BrokenJacket, AJacketThatIsNotPluggedInIsNamed) {
          {"jacket not plugged in", "fail", "jacket port", "/dev/ttyACM0 is not there", "plug the jacket in"});
 }
 
+TEST_F(BrokenJacket, ASimulatedJacketIsNamed) {
+  configure("passive", "");  // as installed
+  expect("passive", {"jacket still simulated", "warn", "jacket", "the jacket is a simulated one",
+                     "link of [jacket] in ~/.config/telehug/passive.toml"});
+}
+
 TEST_F(BrokenJacket, APortWithoutRightsIsNamed) {
   fs::permissions(root() / "dev/ttyACM0", fs::perms::none);
   as_nobody = true;

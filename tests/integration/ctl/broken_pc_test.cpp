@@ -12,6 +12,7 @@
 #include "doubles/crafted_pair.hpp"
 #include "doubles/unique_domain.hpp"
 #include "integration/ctl/broken_pc.hpp"
+#include "service/control_server.hpp"
 
 namespace telehug {
 namespace {
@@ -19,7 +20,16 @@ namespace {
 namespace fs = std::filesystem;
 using std::chrono::hours;
 
-using BrokenPcByItself = BrokenPc;
+class BrokenPcByItself : public BrokenPc {
+ protected:
+  // Those of bin/ go before the system's.
+  void use_own_programs() {
+    const fs::path bin = root().parent_path() / "bin";
+    for (const auto& program : fs::directory_iterator(bin))
+      fs::permissions(program, fs::perms::owner_all | fs::perms::others_exec | fs::perms::others_read);
+    set("PATH=" + bin.string() + ":" + std::getenv("PATH"));
+  }
+};
 
 // Bound to this port (0: any) until it ends.
 class TakenPort {
@@ -145,15 +155,58 @@ TEST_F(BrokenPcByItself, ADaemonThatDoesNotRunIsNamed) {
   expect("passive", {"daemon not running", "warn", "daemon", "telehug-passive does not run", "telehug-passive run"});
 }
 
+// What root has of telehug is nothing: all is in the home of who asks.
+TEST_F(BrokenPcByItself, SudoHasTheFirewallReadAndAllElseLookedAtAsWhoAsks) {
+  if (::geteuid() != 0) GTEST_SKIP() << "only root can stand for somebody else";
+  const fs::path home = root().parent_path();
+  write(".config/telehug/active.toml", "[body_map]\npicture = \"chat.jpg\"\n[peer]\ndomain = 78\n");
+  fs::create_directories(home / ".local/state");
+  fs::rename(state(), home / ".local/state/telehug");
+  write("passwd", "root:x:0:0::/root:/bin/sh\nmia:x:65534:65534::" + home.string() + ":/bin/sh\n");
+  for (const char* variable : {"HOME=/root", "XDG_CONFIG_HOME=", "XDG_STATE_HOME=", "SUDO_UID=65534", "SUDO_USER=mia"})
+    set(variable);
+  before = "chown -R --no-dereference 65534:65534 " + home.string() + "; chmod 700 " + home.string() +
+           "; unshare -n -m sh -c 'mount --bind " + (home / "passwd").string() +
+           " /etc/passwd; nft add table inet f; nft \"add chain inet f in { type filter hook input priority 0; policy "
+           "drop; }\"; exec \"$@\"' sh";
+  expect("active",
+         {"firewall closed, by sudo", "fail", "firewall", "UDP port 26900", "let UDP ports 26900 to 26929 in"});
+}
+
+// The user's unit is there, too, as the package installs it, and not used.
+TEST_F(BrokenPcByItself, AFixedRigWhoseUnitHasFailedIsNamed) {
+  fs::create_directories(root() / "run/systemd/system");
+  write(
+      "bin/systemctl",
+      "#!/bin/sh\necho LoadState=loaded\ncase \"$*\" in\n"
+      "*--user*) echo ActiveState=inactive; echo UnitFileState=disabled; echo Result=success;;\n"
+      "*' telehug-active-rig.service '*) echo ActiveState=failed; echo UnitFileState=enabled; echo Result=exit-code;;\n"
+      "*) exit 1;;\nesac\n");
+  use_own_programs();
+  expect("active", {"a fixed rig's unit failed", "fail", "unit", "telehug-active-rig.service has failed (exit-code)",
+                    "sudo systemctl restart telehug-active-rig.service"});
+}
+
+TEST_F(BrokenPcByItself, ADaemonThatThisUserMayNotAskIsNamedAndNotItsPorts) {
+  const UniqueDomain domain;
+  configure("passive",
+            "[jacket]\nlink = \"serial:/dev/ttyACM0\"\n[peer]\ndomain = " + std::to_string(domain.id()) + "\n");
+  const TakenPort its(SOCK_DGRAM, 7400 + 250 * static_cast<int>(domain.id()) + 10);
+  const ControlServer daemon({.socket = runtime() / "telehug/passive.sock", .group = {}});
+  fs::permissions(runtime() / "telehug/passive.sock", fs::perms::none);
+  as_nobody = true;
+  expect("passive",
+         {"daemon of another group", "warn", "daemon", "passive.sock may not be used by ", "then log in again"});
+  expect("passive", {"", "ok", "ports", "telehug's are free, or its own", ""});
+}
+
 // A `systemctl` that says what systemd 252's said of a unit that could not start.
 TEST_F(BrokenPcByItself, AUnitThatHasFailedIsNamed) {
   fs::create_directories(root() / "run/systemd/system");
   write("bin/systemctl",
         "#!/bin/sh\necho Result=exit-code\necho NRestarts=5\necho LoadState=loaded\necho ActiveState=failed\n"
         "echo UnitFileState=enabled\n");
-  const fs::path bin = root().parent_path() / "bin";
-  fs::permissions(bin / "systemctl", fs::perms::owner_all | fs::perms::others_exec | fs::perms::others_read);
-  set("PATH=" + bin.string() + ":" + std::getenv("PATH"));
+  use_own_programs();
   expect("passive", {"systemd unit failed", "fail", "unit", "telehug-passive.service has failed (exit-code)",
                      "journalctl -u telehug-passive.service -e"});
 }

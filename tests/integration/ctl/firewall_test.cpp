@@ -6,6 +6,8 @@
 #include <gmock/gmock.h>
 #include <unistd.h>
 
+#include <string>
+
 #include "doubles/temporary_folder.hpp"
 #include "integration/cli/shell.hpp"
 
@@ -15,13 +17,17 @@ namespace {
 constexpr int port = 26650;
 
 // Of these rules, loaded in a network of their own.
-FirewallVerdict verdict_of(const std::string& rules) {
+nlohmann::json loaded(const std::string& rules, const std::string& then = "true") {
   const TemporaryFolder folder;
   const std::string file = folder.write("rules.nft", rules);
   const std::string unshare = ::geteuid() == 0 ? "unshare -n" : "unshare -rn";
-  const ShellRun run = shell(unshare + " sh -c 'nft -f " + file + " && nft -j list ruleset'");
+  const ShellRun run = shell(unshare + " sh -c 'nft -f " + file + " && " + then + " && nft -j list ruleset'");
   if (run.code != 0) throw std::runtime_error("nft refuses " + rules);
-  return judge_firewall(nlohmann::json::parse(run.text), port);
+  return nlohmann::json::parse(run.text);
+}
+
+FirewallVerdict verdict_of(const std::string& rules) {
+  return judge_firewall(loaded(rules), port);
 }
 
 // An input chain that drops what these rules do not decide.
@@ -80,6 +86,36 @@ TEST(Firewall, IsPassedOnlyIfEveryChainLetsIn) {
   EXPECT_EQ(verdict_of(lets_in + dropping("")), FirewallVerdict::keeps_out);
   EXPECT_EQ(verdict_of(lets_in + "table ip6 b { chain in { type filter hook input priority 0; policy drop; }\n}\n"),
             FirewallVerdict::lets_in);
+}
+
+// In front of everything in that chain, whatever others accept.
+TEST(Firewall, IsOpenedForTheSenderByTheCommandThatIsNamed) {
+  const std::string open = "table inet a { chain in { type filter hook input priority -10; policy accept; }\n}\n";
+  for (const std::string& rules :
+       {open + dropping("tcp dport 22 accept"), open + dropping("jump others\n", "chain others { drop; }\n"),
+        std::string(
+            "table ip filter { chain INPUT { type filter hook input priority 0; policy accept; reject; }\n}\n")}) {
+    const auto closing = closing_chain(loaded(rules), port);
+    ASSERT_TRUE(closing) << rules;
+    const std::string command = opening_command(*closing, "192.0.2.7", 26650, 26679);
+    ASSERT_TRUE(command.starts_with("sudo nft insert rule ")) << command;
+    EXPECT_EQ(judge_firewall(loaded(rules, command.substr(5)), port), FirewallVerdict::lets_some_in) << command;
+  }
+  EXPECT_FALSE(closing_chain(loaded(open), port));
+}
+
+TEST(Firewall, IsOpenedByTheToolThatMadeIt) {
+  const auto opened_by = [](const std::string& rules) {
+    const auto closing = closing_chain(loaded(rules), port);
+    return closing ? opening_command(*closing, "PEER", 26650, 26679) : "";
+  };
+  EXPECT_EQ(opened_by("table ip filter { chain ufw-user-input { }\n chain INPUT { type filter hook input priority 0; "
+                      "policy drop; jump ufw-user-input; }\n}\n"),
+            "sudo ufw allow proto udp from PEER to any port 26650:26679");
+  EXPECT_THAT(opened_by("table inet firewalld { chain filter_INPUT { type filter hook input priority 10; policy "
+                        "accept; ct state invalid drop; reject; }\n}\n"),
+              testing::StartsWith("sudo firewall-cmd --permanent --add-rich-rule='rule family=\"ipv4\" source "
+                                  "address=\"PEER\" port port=\"26650-26679\" protocol=\"udp\" accept'"));
 }
 
 TEST(Firewall, RejectsAsItDrops) {

@@ -40,21 +40,26 @@ class Report : public testing::Test {
                  "[screen]\nwidth_mm = 520\nheight_mm = 290\n[[touch]]\nerror_x_mm = 3\nerror_y_mm = 4\n");
     CraftedPair(pair).keep(folder / "state/telehug/pairs/passive", Side::passive);
     // A journal, as journalctl prints it.
-    folder.write("bin/journalctl",
-                 "#!/bin/sh\ncase $* in *telehug-passive*) cat " + (folder / "journal").string() + ";; esac\n");
+    folder.write("bin/journalctl", "#!/bin/sh\ncase $* in *telehug-passive*) cat " + (folder / "journal").string() +
+                                       ";; *--unit=telehug-active-rig' '*) echo the rig ends;; *--field=TELEHUG_PEER' "
+                                       "'*) printf 'Agnes Nitt\\nthe other side\\n';; esac\n");
     fs::permissions(folder / "bin/journalctl", fs::perms::owner_all);
     folder.write("journal",
                  "2026-11-29T12:00:00+0000 telehug-passive[7]: telehug-passive 0.1.0 runs\n"
+                 "2026-11-29T12:00:00+0000 telehug-passive[7]: /srv/esmerelda/x can't be read\n"
                  "2026-11-29T12:00:01+0000 telehug-passive[7]: paired with Grandma until 2027-11-28\n"
                  "2026-11-29T12:00:02+0000 telehug-passive[7]: stopped: Philomena has a fever\n"
                  "2026-11-29T12:00:03+0000 telehug-passive[7]: code ABCDE-12345-FGHJK-67890-ABCDE-12345-FGHJK-67890\n"
+                 "2026-11-29T12:00:03+0000 telehug-passive[7]: Magrat Garlick is connected\n"
+                 "2026-11-29T12:00:03+0000 telehug-passive[7]: nobody knows Agnes Nitt, nor the other side\n"
+                 "2026-11-29T12:00:03+0000 telehug-passive[7]: quiet hours until 07:02: nothing is felt\n"
                  "2026-11-29T12:00:04+0000 telehug-passive[7]: no jacket answers on 00:1A:7D:DA:71:13: it is off\n");
   }
 
   [[nodiscard]] std::string command(const std::string& arguments) const {
     const std::string base = folder.path().string();
     return "cd " + base + " && env -u DISPLAY -u WAYLAND_DISPLAY HOME=" + base +
-           " USER=philomena XDG_CONFIG_HOME=" + base + "/config XDG_STATE_HOME=" + base +
+           " USER=philomena SUDO_USER=esmerelda XDG_CONFIG_HOME=" + base + "/config XDG_STATE_HOME=" + base +
            "/state XDG_RUNTIME_DIR=" + base + "/run PATH=" + base + "/bin:" + std::getenv("PATH") +
            " " TELEHUG_BIN "/telehug report " + arguments + " 2>&1";
   }
@@ -115,40 +120,26 @@ TEST_F(Report, HoldsWhatABugReportNeeds) {
                           HasSubstr("no jacket answers"), HasSubstr("firmware: 2"), HasSubstr("image.width_px: 1280"),
                           HasSubstr("touches: 1, errors: 5.00 mm")));
   EXPECT_THAT(text, AllOf(HasSubstr("telehug-passive 0.1.0 runs"), HasSubstr("telehug-active does not run"),
-                          HasSubstr("nothing is in the journal")));
+                          HasSubstr("nothing is in the journal"), HasSubstr("nor the other side")));
 }
 
 TEST_F(Report, HoldsNothingThatIsNobodyElsesBusiness) {
   const auto daemon = daemon_with_secrets(folder / "run/telehug/passive.sock");
   const std::string text = report();
-  for (const char* secret : {"Philomena",
-                             "philomena",
-                             "203.0.113",
-                             "198.51.100",
-                             "192.0.2",
-                             "00:1A:7D",
-                             "20:31",
-                             "secret/Videos",
-                             "Grandma",
-                             "Ogg",
-                             "apple bread",
-                             "Weatherwax",
-                             "4711",
-                             "40123",
-                             "feedface",
-                             "0123456789abcdef",
-                             "crafted by a test",
-                             "FGHJK",
-                             "fever",
-                             "cooking",
-                             "sleeps",
-                             "95530343",
-                             "PRIVATE KEY",
-                             "BEGIN",
-                             "muted",
-                             "last_touch"})
+  for (const char* secret : {"Philomena",         "philomena",   "203.0.113",     "198.51.100", "192.0.2",
+                             "00:1A:7D",          "20:31",       "secret/Videos", "Grandma",    "Ogg",
+                             "apple bread",       "Weatherwax",  "Agnes",         "Garlick",    "07:02",
+                             "esmerelda",         "4711",        "40123",         "feedface",   "0123456789abcdef",
+                             "crafted by a test", "FGHJK",       "fever",         "cooking",    "sleeps",
+                             "95530343",          "PRIVATE KEY", "BEGIN",         "muted",      "last_touch"})
     EXPECT_THAT(text, Not(HasSubstr(secret)));
   EXPECT_THAT(text, Not(HasSubstr(folder.path().string())));
+}
+
+TEST_F(Report, HoldsTheLogOfAFixedRig) {
+  const std::string text = report();
+  EXPECT_THAT(text, AllOf(HasSubstr("--user-unit telehug-active: nothing"),
+                          HasSubstr("-u telehug-active-rig: \nthe rig ends")));
 }
 
 TEST_F(Report, SaysWhereItIsAndWhatIsInIt) {

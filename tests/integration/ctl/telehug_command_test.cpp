@@ -187,6 +187,26 @@ TEST_F(TelehugCommand, MakesAnExitCodeOfAStatusWhenAsked) {
   }
 }
 
+TEST_F(TelehugCommand, EndsWithTheGravestOfBothSidesWhenAsked) {
+  const Json absent{{"state", "waiting"}, {"peer", {{"connected", false}}}};
+  const Json stopped{{"state", "stopped"}};
+  const Json fault{{"state", "fault"}};
+  const struct {
+    Json active;
+    Json passive;
+    ExitCode expected;
+  } cases[] = {{absent, fault, ExitCode::fault},
+               {fault, absent, ExitCode::fault},
+               {absent, stopped, ExitCode::stopped},
+               {stopped, fault, ExitCode::fault},
+               {{{"state", "ok"}}, absent, ExitCode::peer_absent}};
+  for (const auto& [of_active, of_passive, expected] : cases) {
+    const auto active = daemon(Side::active, of_active);
+    const auto passive = daemon(Side::passive, of_passive);
+    EXPECT_EQ(run("status --check").code, to_int(expected)) << of_active << of_passive;
+  }
+}
+
 TEST_F(TelehugCommand, PassesTheReasonOfAStopOn) {
   const auto active = daemon(Side::active, Json::object());
   const Outcome outcome = run("stop --side active --reason 'bed time'");

@@ -3,7 +3,11 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
+#include <filesystem>
 #include <fstream>
+#include <iterator>
+#include <string>
 
 namespace telehug {
 namespace {
@@ -51,11 +55,30 @@ TEST(DoctorChecks, AFirewallIsJudgedByThePortsOfTheDomainAndOnlyIfItMayBeRead) {
   facts.sides[0].domain = 78;
   EXPECT_EQ(check_firewall(facts).front().level, Level::fail);
   EXPECT_THAT(check_firewall(facts).front().fix, HasSubstr("26900 to 26929"));
+  EXPECT_THAT(check_firewall(facts).front().fix,
+              HasSubstr("sudo nft insert rule inet f in ip saddr PEER udp dport 26900-26929 accept"));
   facts.sides[0].loopback_only = true;
   EXPECT_TRUE(check_firewall(facts).empty());
   facts.sides[0].loopback_only = false;
   facts.firewall_is_secret = true;
   EXPECT_THAT(check_firewall(facts).front().fix, HasSubstr("sudo"));
+}
+
+// On an installed PC: deploy/packages/packages.cmake puts docs/ there.
+TEST(DoctorChecks, NameNoPageButInstalledOnes) {
+  const std::string installed = "/usr/share/doc/telehug-common/";
+  int pages = 0;
+  for (const auto& file : std::filesystem::directory_iterator(TELEHUG_SOURCE "/common/ctl/doctor")) {
+    std::ifstream stream(file.path());
+    const std::string text((std::istreambuf_iterator<char>(stream)), {});
+    EXPECT_EQ(text.find("deploy/"), std::string::npos) << file.path();
+    for (std::size_t at = text.find("docs/"); at != std::string::npos; at = text.find("docs/", at + 1), ++pages) {
+      const std::string page = text.substr(at, text.find_first_of("\" ,;)", at) - at);
+      EXPECT_EQ(text.substr(at - std::min(at, installed.size()), installed.size()), installed) << page;
+      EXPECT_TRUE(std::filesystem::exists(std::filesystem::path(TELEHUG_SOURCE) / page)) << page;
+    }
+  }
+  EXPECT_GT(pages, 0);
 }
 
 TEST(DoctorChecks, RulesOfTheOldIptablesAreNotTakenForJudged) {
@@ -104,6 +127,69 @@ TEST(DoctorChecks, OfTheActiveSidesTwoUnitsTheIdleOneIsNotMissed) {
   EXPECT_EQ(check_units(facts).size(), 1U);
 }
 
+// The system's unit of the active side is a fixed rig's: another name than the user's.
+TEST(DoctorChecks, AFailedRigIsToldAndTheUsersIdleUnitIsNotMissedBesideIt) {
+  DoctorFacts facts = facts_of(Side::active);
+  facts.sides[0].units = {{"telehug-active.service", true, "loaded", "inactive", "disabled", "success", 0},
+                          {"telehug-active-rig.service", false, "loaded", "failed", "enabled", "exit-code", 5}};
+  ASSERT_EQ(check_units(facts).size(), 1U);
+  EXPECT_EQ(check_units(facts)[0].level, Level::fail);
+  EXPECT_THAT(check_units(facts)[0].fix, HasSubstr("sudo systemctl restart telehug-active-rig.service"));
+}
+
+TEST(DoctorChecks, AFixedRigIsJudgedAsItsServiceHasIt) {
+  DoctorFacts facts = facts_of(Side::active);
+  facts.sides[0].account = {"telehug", false, true};
+  facts.wants_webcam = true;
+  facts.cameras = {{"/dev/video0", false}};
+  EXPECT_EQ(check_camera(facts).front().fix,
+            "sudo usermod -aG video telehug, then sudo systemctl restart telehug-active-rig");
+  facts.wants_screen = true;  // and this shell has none
+  EXPECT_EQ(check_session(facts).front().level, Level::ok);
+  facts.monitors = {{"DP-1", 520, 290}};
+  EXPECT_THAT(
+      check_calibration(facts).front().fix,
+      HasSubstr("sudo -u telehug env STATE_DIRECTORY=/var/lib/telehug telehug-active calibrate --width-mm 520"));
+  facts.calibration.secret = true;
+  EXPECT_EQ(check_calibration(facts).front().level, Level::warn);
+  EXPECT_THAT(check_calibration(facts).front().fix, HasSubstr("sudo telehug doctor"));
+}
+
+TEST(DoctorChecks, ADaemonOutOfReachIsNotTakenForAbsentNorItsPortsForAnothers) {
+  DoctorFacts facts = facts_of(Side::passive);
+  facts.asked_by = "mia";
+  facts.udp_ports = {26660};
+  facts.tcp_ports = {8080};
+  facts.sides[0].web_port = 8080;
+  EXPECT_EQ(check_ports(facts).size(), 2U);
+  facts.sides[0].denied_socket = "/run/telehug/passive.sock";
+  ASSERT_EQ(check_ports(facts).size(), 1U);
+  EXPECT_EQ(check_ports(facts)[0].level, Level::ok);
+  ASSERT_EQ(check_daemons(facts).size(), 1U);
+  EXPECT_EQ(check_daemons(facts)[0].what,
+            "telehug-passive is there, but /run/telehug/passive.sock may not be used by mia");
+  EXPECT_EQ(check_daemons(facts)[0].fix, "sudo usermod -aG telehug mia, then log in again");
+  // A PC's two sides share the UDP ports.
+  facts.sides.push_back(facts_of(Side::active).sides[0]);
+  EXPECT_EQ(check_ports(facts)[0].level, Level::ok);
+}
+
+TEST(DoctorChecks, ASideThatIsNotRootsIsLeftToWhoseItIs) {
+  DoctorFacts facts = facts_of(Side::passive);
+  facts.daemons.push_back(Json{{"side", "passive"}, {"peer", {{"connected", true}}}});
+  facts.not_of_root = {Side::active};
+  EXPECT_EQ(check_daemons(facts).front().level, Level::warn);
+  EXPECT_EQ(check_daemons(facts).front().fix, "telehug doctor active, without sudo");
+}
+
+TEST(DoctorChecks, ADesktopThatSudoHidesIsNotMissed) {
+  DoctorFacts facts = facts_of(Side::active);
+  facts.wants_screen = true;
+  EXPECT_EQ(check_session(facts).front().level, Level::fail);
+  facts.through_sudo = true;
+  EXPECT_EQ(check_session(facts).front().level, Level::ok);
+}
+
 TEST(DoctorChecks, LightIsJudgedByWhatTheCameraMeasures) {
   DoctorFacts facts = facts_of(Side::active);
   LightFacts& light = facts.light.emplace();
@@ -126,6 +212,13 @@ TEST(DoctorChecks, AMonitorWithoutSizeIsNoTroubleOnceItWasMeasured) {
   EXPECT_EQ(check_monitor(facts).front().level, Level::warn);
   facts.configured_screen_width_mm = 520;
   EXPECT_EQ(check_monitor(facts).front().level, Level::ok);
+}
+
+TEST(DoctorChecks, AMissingPairOfAServiceIsMadeByRoot) {
+  DoctorFacts facts = facts_of(Side::passive);
+  EXPECT_EQ(check_pairs(facts).front().fix, "telehug pair invite here, telehug pair accept on the other PC");
+  facts.sides[0].account = {"telehug", false, true};
+  EXPECT_EQ(check_pairs(facts).front().fix, "sudo telehug pair invite here, telehug pair accept on the other PC");
 }
 
 TEST(DoctorChecks, APairThatEndsSoonIsToldBeforeItDoes) {
@@ -167,6 +260,16 @@ TEST(DoctorChecks, KnowTheFirmwareThatIsBuilt) {
   std::ifstream file(TELEHUG_SOURCE "/passive_side/firmware/CMakeLists.txt");
   std::string text((std::istreambuf_iterator<char>(file)), {});
   EXPECT_THAT(text, HasSubstr("set(TELEHUG_FIRMWARE_VERSION " + std::to_string(newest_firmware) + ")"));
+}
+
+TEST(DoctorChecks, ASimulatedJacketIsToldWithTheFileOfWhoseItIs) {
+  DoctorFacts facts = facts_of(Side::passive);
+  EXPECT_TRUE(check_jacket(facts).empty());
+  facts.jacket_is_simulated = true;
+  EXPECT_EQ(check_jacket(facts).front().level, Level::warn);
+  EXPECT_THAT(check_jacket(facts).front().fix, HasSubstr("~/.config/telehug/passive.toml"));
+  facts.sides[0].account = {"telehug", false, true};
+  EXPECT_THAT(check_jacket(facts).front().fix, HasSubstr("/etc/telehug/passive.toml"));
 }
 
 TEST(DoctorChecks, SeveralPortsAreAnErrorOnlyForTheOneThatIsFoundByItself) {
