@@ -34,7 +34,7 @@ inline constexpr std::array all_exit_codes{
     case ExitCode::peer_absent:
       return "the other side isn't connected (only where a command asks for it)";
     case ExitCode::permission:
-      return "the local socket may not be used by this user";
+      return "the local socket, or the service's pairs, may not be used by this user";
     case ExitCode::bad_answer:
       return "the daemon did not answer in time, or not in its language";
     case ExitCode::refused:
