@@ -87,6 +87,7 @@ ExitCode ActiveDaemon::run(Signals& signals, const ConfigReload<ActiveConfig>& c
     spdlog::error("{}", pair);
   bool paired = true;
   while (true) {
+    notifier_.keeps_house(clock_.now());
     const auto request = signals.wait(housekeeping_round);
     if (request == SignalRequest::stop) break;
     paired = follow_pairs();

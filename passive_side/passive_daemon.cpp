@@ -103,6 +103,7 @@ ExitCode PassiveDaemon::run(Signals& signals, const ConfigReload<PassiveConfig>&
     spdlog::warn("{}", problem);
   bool paired = true;
   while (true) {
+    notifier_.keeps_house(clock_.now());
     const auto request = signals.wait(housekeeping_round);
     if (request == SignalRequest::stop) break;
     if (request == SignalRequest::reload) reload(configuration);
