@@ -66,6 +66,8 @@ ExitCode run(const Options& options) {
     return daemon.run(signals, ConfigReload<PassiveConfig>([&sources] { return load_passive_config(sources); }));
   } catch (const AlreadyRunning& running) {
     return fail(ExitCode::already_running, running.what());
+  } catch (const GroupUnusable& fault) {
+    return fail(ExitCode::config, fault.what());
   } catch (const LineMissing& missing) {
     return fail(ExitCode::device, missing.what());
   } catch (const DdsError& error) {

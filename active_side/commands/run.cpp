@@ -60,6 +60,8 @@ ExitCode run(const Options& options) {
     return daemon.run(signals, ConfigReload<ActiveConfig>([&options] { return configured(options); }));
   } catch (const AlreadyRunning& running) {
     return fail(ExitCode::already_running, Error{running.what()});
+  } catch (const GroupUnusable& fault) {
+    return fail(ExitCode::config, Error{fault.what()});
   } catch (const DdsError& error) {
     return fail(ExitCode::network, Error{error.what()});
   }
