@@ -21,7 +21,7 @@ enum class ExitCode : int {
   fault = 12,            // a side reports that it can't work (only where a command asks for it)
   network = 13,          // DDS can't be set up on this PC
   mismatch = 14,         // a demo or comparison ran, and what came out is not what should have
-  pair_ended = 15,       // the pair was revoked or has expired while the daemon ran
+  pair_ended = 15,       // the pair was revoked or has expired, or is not valid yet
 };
 
 [[nodiscard]] constexpr int to_int(ExitCode code) noexcept {

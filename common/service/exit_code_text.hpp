@@ -50,7 +50,7 @@ inline constexpr std::array all_exit_codes{
     case ExitCode::mismatch:
       return "a demo or comparison ran, and what came out is not what should have";
     case ExitCode::pair_ended:
-      return "the pair was revoked or has expired while the daemon ran";
+      return "the pair was revoked or has expired, or is not valid yet by this PC's clock";
   }
   return {};
 }

@@ -86,14 +86,13 @@ PairStore RunningPair::pairs(Side side) const {
   return {folder / ("pairs-" + side_name(side)), side};
 }
 
-void RunningPair::pair_up(const std::string& wearer_at) const {
-  const WallTime now = wall_time();
+void RunningPair::pair_up(const std::string& wearer_at, WallTime when) const {
   PairStore parent = pairs(Side::active);
   const auto request = parent.request("Grandma");
   if (!request) throw std::runtime_error(request.error().message);
-  const auto granted = pairs(Side::passive).grant(*request, "Mia", now, wearer_at);
+  const auto granted = pairs(Side::passive).grant(*request, "Mia", when, wearer_at);
   if (!granted) throw std::runtime_error(granted.error().message);
-  if (const auto accepted = parent.accept(granted->grant, now); !accepted)
+  if (const auto accepted = parent.accept(granted->grant, when); !accepted)
     throw std::runtime_error(accepted.error().message);
 }
 

@@ -61,7 +61,8 @@ class RunningPair {
   // Pairs the two sides; with it they speak through DDS Security. Of the PC that is `side`.
   [[nodiscard]] PairStore pairs(Side side) const;
   // `wearer_at`: as in PairStore::grant().
-  void pair_up(const std::string& wearer_at = "") const;
+  // `when`: by the clocks of both.
+  void pair_up(const std::string& wearer_at = "", WallTime when = wall_time()) const;
 
   void calibrate(const std::string& source) const;
   void start_jacket();

@@ -145,6 +145,26 @@ TEST_F(AMembership, OfABrokenPairAreRefusedAndNotTakenForNone) {
   EXPECT_THAT(found().error().message, HasSubstr("can't be read"));
 }
 
+TEST_F(AMembership, AreNoneWhileNothingButTheDatesIsWrong) {
+  const Pair pair = pair_with("Grandma");
+  const auto at = [&](WallTime time) { return memberships(config, Side::passive, time); };
+  for (const WallTime time : {pair.expires, now - std::chrono::hours(24 * 400)}) {
+    const Memberships none = at(time).value();
+    EXPECT_TRUE(none.members.empty());
+    EXPECT_THAT(why_none(none), testing::AllOf(HasSubstr("Grandma"), HasSubstr("To do: ")));
+  }
+  std::filesystem::remove(pair.files.governance);
+  EXPECT_FALSE(at(pair.expires)) << "that does not pass";
+}
+
+TEST_F(AMembership, OfABrokenPairBesideAnExpiredOneAreRefused) {
+  const Pair expired = pair_with("Grandma");
+  std::filesystem::remove(pair_with("Dad").files.governance);
+  const auto found = memberships(config, Side::passive, expired.expires);
+  ASSERT_FALSE(found);
+  EXPECT_THAT(found.error().message, testing::AllOf(HasSubstr("Grandma"), HasSubstr("Dad")));
+}
+
 TEST_F(AMembership, LeaveOutABrokenPairIfAnotherCanBeUsed) {
   const Pair pair = pair_with("Grandma");
   pair_with("Dad");
