@@ -75,6 +75,13 @@ Rows common_rows(ControlConfig& control, WebConfig& web, LogConfig& log) {
        {},
        "Group that may use the socket of a daemon that a person starts, one of theirs; empty: the daemon's own. The "
        "packaged service takes none: `sudo usermod -aG telehug NAME` instead."},
+      {"control",
+       "stop_file",
+       &control.stop_file,
+       "",
+       {},
+       "File that keeps a stop over restarts until it is resumed; empty: in the state folder of the service or user. A "
+       "second daemon of a side on one PC needs its own."},
       {"web",
        "enabled",
        &web.enabled,

@@ -100,10 +100,15 @@ std::filesystem::path RunningPair::socket(Side side) const {
   return folder / (side_name(side) + ".sock");
 }
 
+std::filesystem::path RunningPair::stop_file(Side side) const {
+  return folder / ("stop-" + side_name(side) + ".json");
+}
+
 std::vector<std::string> RunningPair::command(Side side, std::vector<std::string> settings) const {
   std::vector<std::string> words = side == Side::active ? active_prefix : passive_prefix;
   const auto& config = side == Side::active ? active_config : passive_config;
   words.insert(words.end(), {program("telehug-" + side_name(side)), "run", "--config", config.string()});
+  settings.insert(settings.begin(), "control.stop_file=" + stop_file(side).string());
   settings.insert(settings.end(), {"peer.domain=" + std::to_string(domain_.id()),
                                    std::string("peer.loopback_only=") + (loopback_only ? "true" : "false"),
                                    "peer.pairs_folder=" + (folder / ("pairs-" + side_name(side))).string(),

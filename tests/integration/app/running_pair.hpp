@@ -87,6 +87,7 @@ class RunningPair {
   [[nodiscard]] bool camera_open() const;
   [[nodiscard]] std::string jacket_state() const;
   [[nodiscard]] std::filesystem::path socket(Side side) const;
+  [[nodiscard]] std::filesystem::path stop_file(Side side) const;
   [[nodiscard]] std::uint32_t domain() const noexcept { return domain_.id(); }
   // Of both sides while they are no pair.
   [[nodiscard]] const std::string& partition() const noexcept { return domain_.partition(); }
