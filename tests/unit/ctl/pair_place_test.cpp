@@ -15,16 +15,20 @@ using testing::HasSubstr;
 
 class PlaceOfPairs : public testing::Test {
  protected:
-  // As if the service's account were who runs this test.
-  void install_service() const { std::filesystem::create_directories(folder / "var/lib/telehug"); }
+  // Root gives it an account of its own; for anybody else it is as if it ran as themselves.
+  void install_service() const {
+    std::filesystem::create_directories(folder / "var/lib/telehug");
+    if (geteuid() != 0) return;
+    ASSERT_EQ(chown((folder / "var/lib/telehug").c_str(), service, service), 0);
+  }
   [[nodiscard]] Result<std::filesystem::path> place(Side side, uid_t caller) const {
     return place_of_pairs(side, sources, "accept CODE", caller, folder.path());
   }
 
   TemporaryFolder folder;
   ConfigSources sources{.system_folder = folder / "etc", .user_folder = {}, .only_file = {}, .overrides = {}};
-  const uid_t service = geteuid();
-  const uid_t somebody = geteuid() + 1;
+  const uid_t service = geteuid() == 0 ? 4711 : geteuid();
+  const uid_t somebody = service + 1;
 };
 
 TEST_F(PlaceOfPairs, IsWhereTheConfigurationOfTheSideSays) {
