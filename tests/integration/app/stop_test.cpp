@@ -128,6 +128,25 @@ TEST_P(Stop, TakesEffectAndSaysThatItWillNotLastIfItsFileCannotBeWritten) {
   EXPECT_TRUE(eventually([&] { return pair.felt(); })) << pair.logs();
 }
 
+// Nobody else knows of it: the parent's PC is off when it is said.
+TEST(AStopOfTheWearer, WhileTheParentsPcIsOffHoldsAfterAKillWhenThatPcIsThere) {
+  RunningPair pair;
+  pair.start_jacket();
+  pair.start_passive();
+  ASSERT_TRUE(eventually([&] { return pair.jacket_state() == "armed"; })) << pair.logs();
+  ASSERT_EQ(pair.telehug("stop", Side::passive, {"--reason", "enough"}).code, 0);
+  pair.passive->kill_now();
+  pair.start_passive();
+  pair.calibrate("replay:" TELEHUG_FIXTURES "/rig2");
+  pair.start_active();
+  EXPECT_TRUE(eventually([&] { return pair.complains(Side::active, "the other side has stopped everything"); }))
+      << pair.logs();
+  EXPECT_TRUE(pair.complains(Side::passive, "stopped here: enough")) << pair.logs();
+  EXPECT_TRUE(pair.pins().empty()) << pair.logs();
+  EXPECT_EQ(pair.telehug("resume", Side::passive).code, 0);
+  EXPECT_TRUE(eventually([&] { return pair.felt(); })) << pair.logs();
+}
+
 INSTANTIATE_TEST_SUITE_P(OnEitherSide, Stop, testing::Values(Side::active, Side::passive),
                          [](const auto& which) { return which.param == Side::active ? "Active" : "Passive"; });
 
