@@ -41,6 +41,7 @@ ActiveDaemon::ActiveDaemon(const ActiveConfig& config, Memberships memberships, 
       publish_latency_(metrics_.latency("publish")),
       total_latency_(metrics_.latency("frame_to_published")),
       local_touch_(local_outputs(config.local_touch), clock),
+      stop_(stop_file(config.control, Side::active)),
       sending_switch_(config.sending.at_start, config.sending.only_in_front),
       calibration_path_(rig_file(config.rig)),
       camera_name_(camera_->name()),
@@ -87,10 +88,12 @@ ExitCode ActiveDaemon::run(Signals& signals, const ConfigReload<ActiveConfig>& c
     spdlog::error("{}", pair);
   bool paired = true;
   while (true) {
+    notifier_.keeps_house(clock_.now());
     const auto request = signals.wait(housekeeping_round);
     if (request == SignalRequest::stop) break;
     paired = follow_pairs();
     if (!paired) break;
+    stop_.keep(clock_.now());
     if (request == SignalRequest::reload) reload(configuration);
     adopt_setup();
     load_rig_if_changed();
@@ -103,6 +106,7 @@ ExitCode ActiveDaemon::run(Signals& signals, const ConfigReload<ActiveConfig>& c
   }
   notifier_.stopping();
   end_thread();
+  stop_.keep(clock_.now());
   spdlog::info("telehug-active ends");
   return paired ? ExitCode::ok : ExitCode::pair_ended;
 }

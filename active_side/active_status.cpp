@@ -197,6 +197,7 @@ Json ActiveDaemon::problems(const TouchThreadState& state, const FaceState& face
   reload_notes_.add_problems(list);
   if (!face.remark.empty()) list.push_back(problem_json(face.remark, "nothing needs to be done: all works"));
   if (stop_.stopped()) list.push_back(problem_json("stopped here: " + stop_.reason(), "run `telehug resume`"));
+  if (const Json problem = stop_.problem(); !problem.is_null()) list.push_back(problem);
   for (const std::string& pair : left_out_)
     list.push_back(problem_json(pair, "the other pairs work; start telehug-active again when it is mended"));
   add_pair_ends(list, connections);

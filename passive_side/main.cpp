@@ -9,6 +9,7 @@
 #include "cli/program.hpp"
 #include "config/load.hpp"
 #include "config/places.hpp"
+#include "daemon/wait_before_restart.hpp"
 #include "jacket/jacket_overrides.hpp"
 #include "jacket/load_jacket_profile.hpp"
 #include "link/make_link.hpp"
@@ -54,6 +55,11 @@ ExitCode run(const Options& options) {
   set_up_log(config->log.level);
   auto found = memberships(config->peer, Side::passive, wall_time());
   if (!found) return fail(ExitCode::config, found.error().message);
+  if (found->members.empty()) {
+    const ExitCode code = fail(ExitCode::pair_ended, why_none(*found));
+    wait_before_restart(signals);
+    return code;
+  }
   auto profile = load_jacket_profile(jacket_profile_file(config->jacket));
   if (profile && !config->jacket.overrides.empty())
     profile = with_overrides(*std::move(profile), config->jacket.overrides);
@@ -66,6 +72,8 @@ ExitCode run(const Options& options) {
     return daemon.run(signals, ConfigReload<PassiveConfig>([&sources] { return load_passive_config(sources); }));
   } catch (const AlreadyRunning& running) {
     return fail(ExitCode::already_running, running.what());
+  } catch (const GroupUnusable& fault) {
+    return fail(ExitCode::config, fault.what());
   } catch (const LineMissing& missing) {
     return fail(ExitCode::device, missing.what());
   } catch (const DdsError& error) {

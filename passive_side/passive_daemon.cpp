@@ -43,6 +43,7 @@ PassiveDaemon::PassiveDaemon(const PassiveConfig& config, Memberships membership
       events_replaced_(metrics_.counter("events_replaced_by_newer")),
       events_unvouched_(metrics_.counter("events_without_heartbeat")),
       total_latency_(metrics_.latency("event_to_link")),
+      stop_(stop_file(config.control, Side::passive)),
       consent_(consent_file(config.consent), parse_quiet_hours(config.consent.quiet_hours).value(), profile_),
       touches_today_(wall_time()),
       hug_back_(session_),
@@ -103,11 +104,13 @@ ExitCode PassiveDaemon::run(Signals& signals, const ConfigReload<PassiveConfig>&
     spdlog::warn("{}", problem);
   bool paired = true;
   while (true) {
+    notifier_.keeps_house(clock_.now());
     const auto request = signals.wait(housekeeping_round);
     if (request == SignalRequest::stop) break;
     if (request == SignalRequest::reload) reload(configuration);
     paired = follow_pairs();
     if (!paired) break;
+    stop_.keep(clock_.now());
     tzset();  // follows a time zone that is changed meanwhile; looks at no more than the file's date if it is not
     tell_watchers();
     tell_running_to_all();
@@ -118,6 +121,7 @@ ExitCode PassiveDaemon::run(Signals& signals, const ConfigReload<PassiveConfig>&
   }
   notifier_.stopping();
   end_thread();
+  stop_.keep(clock_.now());
   spdlog::info("telehug-passive ends; the jacket is off");
   return paired ? ExitCode::ok : ExitCode::pair_ended;
 }

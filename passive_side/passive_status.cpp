@@ -51,6 +51,7 @@ Json PassiveDaemon::problems(const DriveThreadState& now, const std::vector<Conn
   add_jacket_problems(list, now.link);
   add_pair_ends(list, connections);
   if (stop_.stopped()) list.push_back(problem_json("stopped here: " + stop_.reason(), "run `telehug resume`"));
+  if (const Json problem = stop_.problem(); !problem.is_null()) list.push_back(problem);
   for (const ConnectionStatus& connection : connections)
     if (connection.stopped_by_peer) list.push_back(peer_stop_problem_json(connection));
   add_safety_problems(list, now);

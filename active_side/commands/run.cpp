@@ -5,6 +5,7 @@
 #include "active_daemon.hpp"
 #include "commands/config_options.hpp"
 #include "config/places.hpp"
+#include "daemon/wait_before_restart.hpp"
 #include "service/control_socket.hpp"
 
 namespace telehug {
@@ -40,6 +41,11 @@ ExitCode run(const Options& options) {
   set_up_log(config->log.level);
   auto found = memberships(config->peer, Side::active, wall_time());
   if (!found) return fail(ExitCode::config, found.error());
+  if (found->members.empty()) {
+    const ExitCode code = fail(ExitCode::pair_ended, Error{why_none(*found)});
+    wait_before_restart(signals);
+    return code;
+  }
 
   const SteadyClock clock;
   CaptureSettings capture = capture_settings(*config);
@@ -60,6 +66,8 @@ ExitCode run(const Options& options) {
     return daemon.run(signals, ConfigReload<ActiveConfig>([&options] { return configured(options); }));
   } catch (const AlreadyRunning& running) {
     return fail(ExitCode::already_running, Error{running.what()});
+  } catch (const GroupUnusable& fault) {
+    return fail(ExitCode::config, Error{fault.what()});
   } catch (const DdsError& error) {
     return fail(ExitCode::network, Error{error.what()});
   }

@@ -22,8 +22,9 @@ struct PeerConfig {
 };
 
 struct ControlConfig {
-  std::string socket;  // empty: default_control_socket()
-  std::string group;   // empty: the daemon's own
+  std::string socket;     // empty: default_control_socket()
+  std::string group;      // empty: the daemon's own
+  std::string stop_file;  // empty: see stop_file()
 };
 
 struct WebConfig {

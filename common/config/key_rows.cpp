@@ -68,7 +68,20 @@ Rows common_rows(ControlConfig& control, WebConfig& web, LogConfig& log) {
   return {
       {"control", "socket", &control.socket, "", TextCheck(fits_a_socket),
        "Local socket that `telehug status` talks to; empty: in the runtime folder of the service or user."},
-      {"control", "group", &control.group, "", {}, "Group that may use the socket; empty: the daemon's own."},
+      {"control",
+       "group",
+       &control.group,
+       "",
+       {},
+       "Group that may use the socket of a daemon that a person starts, one of theirs; empty: the daemon's own. The "
+       "packaged service takes none: `sudo usermod -aG telehug NAME` instead."},
+      {"control",
+       "stop_file",
+       &control.stop_file,
+       "",
+       {},
+       "File that keeps a stop over restarts until it is resumed; empty: in the state folder of the service or user. A "
+       "second daemon of a side on one PC needs its own."},
       {"web",
        "enabled",
        &web.enabled,

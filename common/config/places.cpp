@@ -54,6 +54,11 @@ std::filesystem::path consent_file(const ConsentConfig& config) {
   return config.file.empty() ? state_folder() / "consent.json" : std::filesystem::path(config.file);
 }
 
+std::filesystem::path stop_file(const ControlConfig& config, Side side) {
+  if (!config.stop_file.empty()) return config.stop_file;
+  return state_folder() / (side == Side::active ? "stop-active.json" : "stop-passive.json");
+}
+
 std::filesystem::path installed_jacket_file(const std::filesystem::path& given) {
   const std::filesystem::path installed = data_folder() / "jackets";
   std::error_code ignored;

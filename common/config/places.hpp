@@ -29,6 +29,10 @@ namespace telehug {
 // What the wearer wants, on the wearer's PC: as configured, else consent.json in the state folder.
 [[nodiscard]] std::filesystem::path consent_file(const ConsentConfig& config);
 
+// This side's own stop, which outlives restarts: as configured, else stop-active.json or stop-passive.json in the state
+// folder.
+[[nodiscard]] std::filesystem::path stop_file(const ControlConfig& config, Side side);
+
 // A relative path that does not exist from here, such as "duemilanove-16.toml", is looked for among the installed
 // jacket profiles.
 [[nodiscard]] std::filesystem::path installed_jacket_file(const std::filesystem::path& given);

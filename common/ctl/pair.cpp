@@ -6,8 +6,8 @@
 #include <cstdio>
 #include <memory>
 
-#include "config/places.hpp"
 #include "ctl/command.hpp"
+#include "ctl/pair_place.hpp"
 #include "ctl/pair_side.hpp"
 #include "ctl/pairing_steps.hpp"
 #include "files/folder_owner.hpp"
@@ -54,9 +54,9 @@ class PairCommands {
     command
         ->add_option("--side", given_->side, "What this PC is: active (parent's), passive (wearer's); default: found")
         ->check(CLI::IsMember({"active", "passive"}));
-    command->add_option("--folder", given_->wish.folder, "Where the pairs are kept (default: telehug's state folder)")
+    command->add_option("--folder", given_->wish.folder, "Where the pairs are kept (default: where the daemon looks)")
         ->type_name("DIR");
-    command->callback([given = given_, step, of, &result = result_] {
+    command->callback([given = given_, step, of, called = std::string(name), &result = result_] {
       const auto side = side_of_this_pc(given->side.empty() ? of : given->side);
       if (!side) {
         (void)std::fprintf(stderr, "telehug: %s\n", side.error().message.c_str());
@@ -65,7 +65,15 @@ class PairCommands {
       }
       PairingWish wish = given->wish;
       wish.side = *side;
-      if (wish.folder.empty()) wish.folder = pairs_folder({}, *side);
+      if (wish.folder.empty()) {
+        const auto place = place_of_pairs(*side, usual_config_sources(), called + " ...", ::geteuid());
+        if (!place) {
+          (void)std::fprintf(stderr, "telehug: %s\n", place.error().message.c_str());
+          result = ExitCode::permission;
+          return;
+        }
+        wish.folder = *place;
+      }
       if (wish.name.empty()) wish.name = name_of_this_pc();
       if (!wish.wireguard.empty()) {
         const auto endpoint = parse_tunnel_endpoint(wish.wireguard);

@@ -70,9 +70,11 @@ Result<Memberships> memberships(const PeerConfig& config, Side side, WallTime no
     if (!chosen) return chosen.error();
     if (chosen->empty()) return Memberships{{unpaired}, {}};
     const auto addresses = parse_addresses(config.addresses);
+    bool only_dates = true;
     for (const Pair& pair : *chosen) {
       if (const auto faults = store.preflight(pair, now); !faults.empty()) {
         found.left_out.push_back(broken(pair, faults));
+        only_dates = only_dates && std::ranges::all_of(faults, &PairingFault::by_date);
         continue;
       }
       Membership& member = found.members.emplace_back(unpaired);
@@ -86,7 +88,7 @@ Result<Memberships> memberships(const PeerConfig& config, Side side, WallTime no
       if (!config.public_address.empty())
         member.dds.public_address = {config.public_address, static_cast<std::uint16_t>(config.public_port)};
     }
-    if (found.members.empty()) return Error{fmt::format("{}", fmt::join(found.left_out, "\n"))};
+    if (found.members.empty() && !only_dates) return Error{why_none(found)};
     if (found.members.size() > 1 && !config.public_address.empty()) {
       return Error{fmt::format(
           "the two UDP ports from peer.public_port on serve one pair: choose by peer.pairs which: {}", ids(*chosen))};
@@ -99,6 +101,10 @@ Result<Memberships> memberships(const PeerConfig& config, Side side, WallTime no
     return Error{fmt::format("the pairs of this PC can't be read: {}", problem.what())};
   }
   return found;
+}
+
+std::string why_none(const Memberships& none) {
+  return fmt::format("{}", fmt::join(none.left_out, "\n"));
 }
 
 bool same_pair(const Membership& a, const Membership& b) {

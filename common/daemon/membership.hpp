@@ -23,15 +23,18 @@ struct Membership {
 inline constexpr std::size_t max_memberships = 8;
 
 struct Memberships {
-  std::vector<Membership> members;    // at least one
+  std::vector<Membership> members;    // none only if every pair fails by its date alone
   std::vector<std::string> left_out;  // what is wrong with each pair that can't be used, and what to do
 };
 
 // The configured pairs, checked. If none are configured: on the wearer's PC all there are (who was granted a pair may
 // touch), on a parent's the only one there is (with several it must be said who is touched). Without any pair: one
 // membership, of this PC alone. A pair that can't be used is left out as long as another can; if none can, that is the
-// error: a daemon whose pair is broken must not run as if it had none.
+// error, unless it is for their dates, which pass: a daemon whose pair is broken must not run as if it had none.
 [[nodiscard]] Result<Memberships> memberships(const PeerConfig& config, Side side, WallTime now);
+
+// Why there are no members: a line for each fault and what to do.
+[[nodiscard]] std::string why_none(const Memberships& none);
 
 // Of the same pair, or both of none.
 [[nodiscard]] bool same_pair(const Membership& a, const Membership& b);

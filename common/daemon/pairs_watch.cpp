@@ -24,8 +24,9 @@ std::optional<std::vector<Membership>> PairsWatch::changed(WallTime now) {
     if (present == seen_) return {};
     seen_ = std::move(present);
     auto found = memberships(config_, side_, now);
-    if (found) return std::move(found->members);
-    say_.say(spdlog::level::warn, "the connections stay as they are: " + found.error().message, {.stage = "pairing"});
+    if (found && !found->members.empty()) return std::move(found->members);
+    const std::string why = found ? why_none(*found) : found.error().message;
+    say_.say(spdlog::level::warn, "the connections stay as they are: " + why, {.stage = "pairing"});
   } catch (const std::exception& problem) {
     say_.say(spdlog::level::warn, std::string("the pairs of this PC can't be read: ") + problem.what(),
              {.stage = "pairing"});

@@ -6,12 +6,15 @@
 #include <algorithm>
 #include <utility>
 
+#include "daemon/kept_stop.hpp"
+#include "daemon/status_parts.hpp"
 #include "service/log.hpp"
 
 namespace telehug {
 namespace {
 
 constexpr std::size_t longest_reason = 200;  // bytes
+constexpr Duration retry_interval = 10s;
 
 // Without control characters, and not cut within a UTF-8 character.
 std::string one_line(std::string text) {
@@ -35,11 +38,41 @@ void say_stopped(const std::string& reason) {
             fmt::format("stopped: {}", reason));
 }
 
+nlohmann::json not_kept(bool stopped, const std::string& why) {
+  if (stopped) {
+    return problem_json("the stop will not outlive a restart: " + why,
+                        "mend that, it is tried again by itself; until then say `telehug stop` again after a restart");
+  }
+  return problem_json("everything will be stopped again after a restart: " + why,
+                      "mend that, it is tried again by itself");
+}
+
 }  // namespace
 
+StopSwitch::StopSwitch(std::filesystem::path file) : file_(std::move(file)) {
+  const auto kept = read_kept_stop(file_);
+  if (kept && !*kept) return;
+  if (!kept) {
+    const std::string what = fmt::format("{} {}", file_.string(), kept.error().message);
+    problem_ = problem_json("whether everything was stopped is not known: " + what, "`telehug resume` begins anew");
+    log_about({.stage = "stop"}, spdlog::level::err, problem_.at("what").get<std::string>());
+  }
+  set(true, kept ? one_line(**kept) : "nobody knows whether it was stopped before the restart");
+  tried_ = kept_ = changes_;
+  say_stopped(reason_);
+}
+
 void StopSwitch::serve(ControlServer& control) {
-  control.on("stop", [this](const nlohmann::json& request) { return stop(request); });
-  control.on("resume", [this](const nlohmann::json&) { return resume(); });
+  control.on("stop", [this](const nlohmann::json& request) {
+    auto answer = stop(request);
+    write();
+    return answer;
+  });
+  control.on("resume", [this](const nlohmann::json&) {
+    auto answer = resume();
+    write();
+    return answer;
+  });
 }
 
 nlohmann::json StopSwitch::stop(const nlohmann::json& request) {
@@ -79,7 +112,46 @@ void StopSwitch::release() {
 void StopSwitch::set(bool stopped, std::string reason) {
   reason_ = std::move(reason);
   stopped_ = stopped;
-  ever_set_ = true;
+  ++changes_;
+}
+
+void StopSwitch::keep(Timestamp now) {
+  {
+    const std::lock_guard lock(mutex_);
+    const bool waits = tried_ == changes_ && tried_at_ && now - *tried_at_ < retry_interval;
+    if (kept_ == changes_ || waits) return;
+  }
+  tried_at_ = now;
+  write();
+}
+
+void StopSwitch::write() {
+  const std::lock_guard writing(writing_);
+  std::optional<std::string> reason;
+  std::uint64_t change = 0;
+  {
+    const std::lock_guard lock(mutex_);
+    if (kept_ == changes_) return;
+    if (stopped_) reason = reason_;
+    change = changes_;
+  }
+  const Status kept = keep_stop(file_, reason);
+  nlohmann::json problem;
+  if (!kept) {
+    problem = not_kept(reason.has_value(), kept.error().message);
+    say_.say(spdlog::level::err, problem.at("what").get<std::string>(), {.stage = "stop"});
+  } else {
+    say_.forget();
+  }
+  const std::lock_guard lock(mutex_);
+  problem_ = std::move(problem);
+  tried_ = change;
+  if (kept) kept_ = change;
+}
+
+nlohmann::json StopSwitch::problem() const {
+  const std::lock_guard lock(mutex_);
+  return problem_;
 }
 
 std::string StopSwitch::reason() const {
@@ -92,7 +164,7 @@ void StopSwitch::tell(PeerLink& peer) const {
   std::string reason;
   {
     const std::lock_guard lock(mutex_);
-    if (!ever_set_) return;
+    if (changes_ == 0) return;
     stopped = stopped_;
     reason = reason_;
   }

@@ -22,6 +22,14 @@ Error failure(const fs::path& path, int code) {
   return Error{fmt::format("{} can't be written ({}); {}", path.string(), std::strerror(code), advice)};
 }
 
+// The new name survives a power cut, too. Not every file system can say so.
+void sync_folder(const fs::path& folder) {
+  const int descriptor = ::open(folder.empty() ? "." : folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (descriptor < 0) return;
+  ::fsync(descriptor);
+  ::close(descriptor);
+}
+
 Status write_whole(const fs::path& path, const fs::path& unfinished, std::span<const std::uint8_t> bytes, bool sync) {
   auto file = PrivateFile::create(unfinished);
   if (!file) return file.error();
@@ -30,7 +38,10 @@ Status write_whole(const fs::path& path, const fs::path& unfinished, std::span<c
   if (written) written = file->close();
   std::error_code problem;
   if (written) fs::rename(unfinished, path, problem);
-  if (written && !problem) return Done{};
+  if (written && !problem) {
+    if (sync) sync_folder(path.parent_path());
+    return Done{};
+  }
   std::error_code ignored;
   fs::remove(unfinished, ignored);
   return written ? failure(path, problem.value()) : written;

@@ -57,8 +57,9 @@ struct Renewal {
 
 struct PairingFault {
   std::filesystem::path file;
-  std::string what;   // one sentence
-  std::string to_do;  // the command that mends it
+  std::string what;      // one sentence
+  std::string to_do;     // the command that mends it
+  bool by_date = false;  // nothing but the time is wrong: it passes when the pair is renewed or the clock is right
 };
 
 // All pairs of this PC and, on the wearer's PC, the authority that signs for them. Folder 0700, secrets 0600.

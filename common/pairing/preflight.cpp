@@ -50,8 +50,8 @@ class Inspection {
   }
 
  private:
-  void add(const std::filesystem::path& file, std::string what, std::string to_do) {
-    faults_.push_back({file, std::move(what), std::move(to_do)});
+  void add(const std::filesystem::path& file, std::string what, std::string to_do, bool by_date = false) {
+    faults_.push_back({file, std::move(what), std::move(to_do), by_date});
   }
 
   CertificateHandle certificate(const std::filesystem::path& file, const std::string& if_expired) {
@@ -71,8 +71,8 @@ class Inspection {
 
   void inspect_dates(const std::filesystem::path& file, const Validity& validity, const std::string& if_expired) {
     if (now_ < validity.from)
-      add(file, fmt::format("it is not valid before {}.", date(validity.from)), "check this PC's clock: `date`");
-    if (now_ >= validity.until) add(file, fmt::format("it has expired on {}.", date(validity.until)), if_expired);
+      add(file, fmt::format("it is not valid before {}.", date(validity.from)), "check this PC's clock: `date`", true);
+    if (now_ >= validity.until) add(file, fmt::format("it has expired on {}.", date(validity.until)), if_expired, true);
   }
 
   void inspect_key(X509* own) {

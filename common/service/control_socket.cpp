@@ -49,12 +49,20 @@ sockaddr_un address_of(const fs::path& path) {
   return address;
 }
 
-gid_t group_id(const fs::path& path, const std::string& name) {
+[[noreturn]] void refuse_group(const std::string& name, std::string_view why) {
+  throw GroupUnusable(
+      fmt::format("control.group = \"{}\": {}. Leave it empty; with the packaged service `sudo usermod -aG telehug "
+                  "NAME` lets NAME use "
+                  "the socket after their next login",
+                  name, why));
+}
+
+gid_t group_id(const std::string& name) {
   std::array<char, 16384> buffer{};
   group entry{};
   group* found = nullptr;
   getgrnam_r(name.c_str(), &entry, buffer.data(), buffer.size(), &found);
-  if (found == nullptr) fail(path, fmt::format("there is no group \"{}\" (control.group)", name));
+  if (found == nullptr) refuse_group(name, "there is no such group on this PC");
   return found->gr_gid;
 }
 
@@ -159,8 +167,8 @@ void ControlSocket::listen(const std::string& group) {
   }
   bound_ = true;
   // Nobody can connect before listen(), so nobody slips in before the permissions stand.
-  if (!group.empty() && chown(path_.c_str(), static_cast<uid_t>(-1), group_id(path_, group)) != 0) {
-    fail_with_errno(path_, fmt::format("it can't be given to group \"{}\"", group));
+  if (!group.empty() && chown(path_.c_str(), static_cast<uid_t>(-1), group_id(group)) != 0) {
+    refuse_group(group, fmt::format("this account may not give its socket to that group ({})", std::strerror(errno)));
   }
   if (chmod(path_.c_str(), 0660) != 0) fail_with_errno(path_, "its permissions can't be set");
   if (::listen(fd_, 16) != 0) fail_with_errno(path_, "it can't be listened on");

@@ -28,13 +28,19 @@ class AlreadyRunning : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+// control.group names a group that the socket can't be given to: a fault of the configuration.
+class GroupUnusable : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
 // A listening unix stream socket, mode 0660. A file left by a daemon that died is replaced; one that is answered on is
 // not. An empty file PATH.lock beside it, locked as long as this lives, decides between two that start at once; it
 // stays behind, unlocked.
 class ControlSocket {
  public:
   // `group`: who may use it besides the owner; empty: the owner's group. Makes the folder if need be.
-  // Throws AlreadyRunning, or std::runtime_error with a sentence for a person.
+  // Throws AlreadyRunning, GroupUnusable, or std::runtime_error with a sentence for a person.
   ControlSocket(std::filesystem::path path, const std::string& group);
   ~ControlSocket();
   ControlSocket(const ControlSocket&) = delete;

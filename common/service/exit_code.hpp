@@ -13,7 +13,7 @@ enum class ExitCode : int {
   device = 4,            // a camera, screen, jacket or recording that was asked for can't be used
   not_running = 5,       // no daemon answers on the local socket
   peer_absent = 6,       // the other side isn't connected (only where a command asks for it)
-  permission = 7,        // the local socket may not be used by this user
+  permission = 7,        // the local socket, or the service's pairs, may not be used by this user
   bad_answer = 8,        // the daemon did not answer in time, or not in its language
   refused = 9,           // the daemon understood and refused, or the user when asked
   already_running = 10,  // another daemon serves the same socket
@@ -21,7 +21,7 @@ enum class ExitCode : int {
   fault = 12,            // a side reports that it can't work (only where a command asks for it)
   network = 13,          // DDS can't be set up on this PC
   mismatch = 14,         // a demo or comparison ran, and what came out is not what should have
-  pair_ended = 15,       // the pair was revoked or has expired while the daemon ran
+  pair_ended = 15,       // the pair was revoked or has expired, or is not valid yet
 };
 
 [[nodiscard]] constexpr int to_int(ExitCode code) noexcept {

@@ -34,7 +34,7 @@ inline constexpr std::array all_exit_codes{
     case ExitCode::peer_absent:
       return "the other side isn't connected (only where a command asks for it)";
     case ExitCode::permission:
-      return "the local socket may not be used by this user";
+      return "the local socket, or the service's pairs, may not be used by this user";
     case ExitCode::bad_answer:
       return "the daemon did not answer in time, or not in its language";
     case ExitCode::refused:
@@ -50,7 +50,7 @@ inline constexpr std::array all_exit_codes{
     case ExitCode::mismatch:
       return "a demo or comparison ran, and what came out is not what should have";
     case ExitCode::pair_ended:
-      return "the pair was revoked or has expired while the daemon ran";
+      return "the pair was revoked or has expired, or is not valid yet by this PC's clock";
   }
   return {};
 }

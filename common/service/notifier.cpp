@@ -10,6 +10,9 @@
 namespace telehug {
 namespace {
 
+// Longer than a participant takes to be made anew, or a disk to write.
+constexpr Duration longest_housekeeping = 60s;
+
 // A failure to tell systemd leaves nothing to do that would help: the watchdog is there for that case.
 void tell(const std::string& state) {
   (void)sd_notify(0, state.c_str());
@@ -44,6 +47,9 @@ void Notifier::stopping() const {
 }
 
 void Notifier::alive(Timestamp now) {
+  if (first_alive_ns_ == 0) first_alive_ns_ = to_ns(now);
+  const Timestamp house_kept = from_ns(std::max(house_kept_ns_.load(), first_alive_ns_));
+  if (now - house_kept >= longest_housekeeping) return;
   if (!watchdog_ || (last_told_ != Timestamp{} && now - last_told_ < *watchdog_ / 2)) return;
   last_told_ = now;
   tell("WATCHDOG=1");

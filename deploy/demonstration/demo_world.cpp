@@ -58,7 +58,7 @@ DemoWorld::DemoWorld(const DemoSettings& settings)
   for (const std::string& value :
        {"jacket.link=serial:" + port, "jacket.profile=" + settings_.profile.string(),
         "consent.file=" + (folder_ / "consent.json").string(), "control.socket=" + passive_socket_.string(),
-        "log.level=" + settings_.active_level}) {
+        "control.stop_file=" + (folder_ / "stop-passive.json").string(), "log.level=" + settings_.active_level}) {
     passive.insert(passive.end(), {"--set", value});
   }
   passive_ = std::make_unique<ChildProcess>(passive, folder_ / "passive.log");
@@ -106,7 +106,7 @@ void DemoWorld::start_active() {
   for (const std::string& value :
        {"rig.calibration_file=" + (folder_ / "rig.toml").string(),
         "body_map.picture=" + settings_.chat_picture.string(), "control.socket=" + active_socket_.string(),
-        "log.level=" + settings_.active_level}) {
+        "control.stop_file=" + (folder_ / "stop-active.json").string(), "log.level=" + settings_.active_level}) {
     active.insert(active.end(), {"--set", value});
   }
   active_ = std::make_unique<ChildProcess>(active, folder_ / "active.log");

@@ -63,7 +63,7 @@ class Daemon {
  private:
   TemporaryFolder folder_;
   std::string socket_ = folder_ / "active.sock";
-  StopSwitch stop_;
+  StopSwitch stop_{folder_ / "stop.json"};
   ControlServer server_{{.socket = socket_, .group = {}, .most_clients = 64}};
 };
 

@@ -93,6 +93,7 @@ class Home {
     config.pairs_folder = folder_.string();
     const auto all = memberships(config, side_, now);
     if (!all) return require(!all.error().message.empty());
+    if (all->members.empty()) return require(!why_none(*all).empty());
     const Membership& member = all->members.front();
     if (!member.pair) return;  // pair.json is no more
     (void)describe(member);

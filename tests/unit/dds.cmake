@@ -50,6 +50,10 @@ telehug_test(test_membership KIND unit SUBJECT link
           unit/daemon/pairing_run_test.cpp
   DEPS telehug_daemon)
 
+telehug_test(test_kept_stop KIND unit SUBJECT ops
+  SOURCES unit/daemon/kept_stop_test.cpp
+  DEPS telehug_daemon)
+
 telehug_test(test_link_keeper KIND unit SUBJECT link
   SOURCES unit/daemon/link_keeper_test.cpp
   DEPS telehug_daemon)

@@ -12,7 +12,7 @@ telehug_test(test_service KIND unit SUBJECT ops
   DEPS telehug_service)
 
 telehug_test(test_ctl KIND unit SUBJECT ops
-  SOURCES unit/ctl/avrdude_output_test.cpp unit/ctl/doctor_checks_test.cpp unit/ctl/fuses_test.cpp unit/ctl/masker_test.cpp unit/ctl/run_program_test.cpp
+  SOURCES unit/ctl/avrdude_output_test.cpp unit/ctl/doctor_checks_test.cpp unit/ctl/fuses_test.cpp unit/ctl/masker_test.cpp unit/ctl/pair_place_test.cpp unit/ctl/run_program_test.cpp
           unit/ctl/status_text_test.cpp unit/ctl/watch_text_test.cpp
   DEPS telehug_ctl)
 

@@ -142,5 +142,17 @@ TEST_F(BadInput, ASecondDaemonOnTheSameSocketIsRefusedAndTheFirstGoesOn) {
   expect_felt();
 }
 
+// Started again by systemd it would fail again, for ever.
+TEST_F(BadInput, AGroupThatTheSocketCannotBeGivenToIsAFaultOfTheConfiguration) {
+  pair.active_settings.emplace_back("control.group=no-such-group-here");
+  pair.passive_settings.emplace_back("control.group=no-such-group-here");
+  for (const auto& command : {pair.active_command(), pair.passive_command()}) {
+    const Outcome outcome = pair.run(command);
+    EXPECT_EQ(outcome.code, to_int(ExitCode::config)) << outcome.text;
+    EXPECT_THAT(outcome.text, AllOf(HasSubstr("control.group = \"no-such-group-here\": there is no such group"),
+                                    HasSubstr("Leave it empty")));
+  }
+}
+
 }  // namespace
 }  // namespace telehug

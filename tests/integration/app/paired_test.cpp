@@ -116,5 +116,29 @@ TEST(Paired, ADamagedPairIsNamedWithItsFileAndWhatMendsItAndTheDaemonDoesNotStar
   EXPECT_NE(outcome.text.find("telehug pair"), std::string::npos) << outcome.text;
 }
 
+// systemd starts a daemon again after this code, not after that of a fault in the configuration.
+TEST(Paired, APairThatHasExpiredEndsEitherDaemonAsOneThatEndsWhileItRuns) {
+  RunningPair pair;
+  pair.pair_up("", wall_time() - std::chrono::hours(24 * 800));
+  for (const auto& command : {pair.passive_command(), pair.active_command()}) {
+    const Outcome outcome = pair.run(command);
+    EXPECT_EQ(outcome.code, to_int(ExitCode::pair_ended)) << outcome.text;
+    EXPECT_NE(outcome.text.find("it has expired on 20"), std::string::npos) << outcome.text;
+    EXPECT_NE(outcome.text.find("telehug pair renew"), std::string::npos) << outcome.text;
+  }
+}
+
+// 30 starts within 5 minutes, and systemd would start it no more.
+TEST(Paired, APairThatIsNotValidYetEndsADaemonOfSystemdNoSoonerThanItsUnitAllows) {
+  RunningPair pair;
+  pair.pair_up("", wall_time() + std::chrono::hours(24 * 800));
+  pair.passive_prefix = {"/usr/bin/env", "NOTIFY_SOCKET=" + (pair.folder / "notify").string()};
+  const auto begun = std::chrono::steady_clock::now();
+  const Outcome outcome = pair.run(pair.passive_command());
+  EXPECT_EQ(outcome.code, to_int(ExitCode::pair_ended)) << outcome.text;
+  EXPECT_NE(outcome.text.find("check this PC's clock"), std::string::npos) << outcome.text;
+  EXPECT_GE(std::chrono::steady_clock::now() - begun, 10s);
+}
+
 }  // namespace
 }  // namespace telehug

@@ -118,6 +118,22 @@ TEST_F(ThePanel, HoldsTheStopWhileTheButtonIsPressedAndKeepsItThereafter) {
   EXPECT_TRUE(eventually([&] { return pair.felt(); })) << pair.logs();
 }
 
+TEST_F(ThePanel, KeepsTheStopOfItsButtonOverAKillOfTheDaemon) {
+  ASSERT_TRUE(pair.start_all()) << pair.logs();
+  set("stop", "1");
+  ASSERT_TRUE(eventually([&] { return stopped(Side::passive) && !pair.felt(); })) << pair.logs();
+  ASSERT_TRUE(let_go()) << pair.logs();
+  ASSERT_TRUE(eventually([&] { return std::filesystem::exists(pair.stop_file(Side::passive)); })) << pair.logs();
+  const auto changes = pair.pins().size();
+  pair.passive->kill_now();
+  pair.start_passive();
+  ASSERT_TRUE(eventually([&] { return stopped(Side::passive) && stop_button() == "released"; })) << pair.logs();
+  EXPECT_TRUE(pair.complains(Side::passive, "the emergency stop button was pressed")) << pair.logs();
+  EXPECT_EQ(pair.pins().size(), changes) << pair.logs();
+  EXPECT_EQ(pair.telehug("resume", Side::passive).code, 0);
+  EXPECT_TRUE(eventually([&] { return pair.felt(); })) << pair.logs();
+}
+
 TEST_F(ThePanel, ResumesWhenTheButtonIsHeldOnceMore) {
   ASSERT_TRUE(pair.start_all()) << pair.logs();
   set("stop", "1");

@@ -86,14 +86,13 @@ PairStore RunningPair::pairs(Side side) const {
   return {folder / ("pairs-" + side_name(side)), side};
 }
 
-void RunningPair::pair_up(const std::string& wearer_at) const {
-  const WallTime now = wall_time();
+void RunningPair::pair_up(const std::string& wearer_at, WallTime when) const {
   PairStore parent = pairs(Side::active);
   const auto request = parent.request("Grandma");
   if (!request) throw std::runtime_error(request.error().message);
-  const auto granted = pairs(Side::passive).grant(*request, "Mia", now, wearer_at);
+  const auto granted = pairs(Side::passive).grant(*request, "Mia", when, wearer_at);
   if (!granted) throw std::runtime_error(granted.error().message);
-  if (const auto accepted = parent.accept(granted->grant, now); !accepted)
+  if (const auto accepted = parent.accept(granted->grant, when); !accepted)
     throw std::runtime_error(accepted.error().message);
 }
 
@@ -101,10 +100,15 @@ std::filesystem::path RunningPair::socket(Side side) const {
   return folder / (side_name(side) + ".sock");
 }
 
+std::filesystem::path RunningPair::stop_file(Side side) const {
+  return folder / ("stop-" + side_name(side) + ".json");
+}
+
 std::vector<std::string> RunningPair::command(Side side, std::vector<std::string> settings) const {
   std::vector<std::string> words = side == Side::active ? active_prefix : passive_prefix;
   const auto& config = side == Side::active ? active_config : passive_config;
   words.insert(words.end(), {program("telehug-" + side_name(side)), "run", "--config", config.string()});
+  settings.insert(settings.begin(), "control.stop_file=" + stop_file(side).string());
   settings.insert(settings.end(), {"peer.domain=" + std::to_string(domain_.id()),
                                    std::string("peer.loopback_only=") + (loopback_only ? "true" : "false"),
                                    "peer.pairs_folder=" + (folder / ("pairs-" + side_name(side))).string(),

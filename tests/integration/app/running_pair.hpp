@@ -61,7 +61,8 @@ class RunningPair {
   // Pairs the two sides; with it they speak through DDS Security. Of the PC that is `side`.
   [[nodiscard]] PairStore pairs(Side side) const;
   // `wearer_at`: as in PairStore::grant().
-  void pair_up(const std::string& wearer_at = "") const;
+  // `when`: by the clocks of both.
+  void pair_up(const std::string& wearer_at = "", WallTime when = wall_time()) const;
 
   void calibrate(const std::string& source) const;
   void start_jacket();
@@ -86,6 +87,7 @@ class RunningPair {
   [[nodiscard]] bool camera_open() const;
   [[nodiscard]] std::string jacket_state() const;
   [[nodiscard]] std::filesystem::path socket(Side side) const;
+  [[nodiscard]] std::filesystem::path stop_file(Side side) const;
   [[nodiscard]] std::uint32_t domain() const noexcept { return domain_.id(); }
   // Of both sides while they are no pair.
   [[nodiscard]] const std::string& partition() const noexcept { return domain_.partition(); }

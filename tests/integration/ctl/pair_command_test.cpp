@@ -243,5 +243,16 @@ TEST_F(PairCommand, SaysThatACodeIsMistyped) {
   EXPECT_NE(content("errors.txt").find("pairing code has 40"), std::string::npos) << content("errors.txt");
 }
 
+TEST_F(PairCommand, KeepsThePairsWhereTheConfigurationOfTheDaemonSays) {
+  const auto place = folder_ / "as-configured";
+  folder_.write("config/telehug/passive.toml", "[peer]\npairs_folder = \"" + place.string() + "\"\n");
+  setenv("XDG_CONFIG_HOME", (folder_ / "config").c_str(), 1);
+  ASSERT_EQ(run("request --name Mum" + on("active"), "/dev/null", "request.txt"), 0) << content("errors.txt");
+  EXPECT_EQ(run("grant --name Kim", folder_ / "request.txt", "grant.txt"), 0) << content("errors.txt");
+  unsetenv("XDG_CONFIG_HOME");
+  EXPECT_EQ(run("list --json --side passive --folder " + place.string()), 0);
+  EXPECT_EQ(Json::parse(content("out.txt"))["pairs"].size(), 1U);
+}
+
 }  // namespace
 }  // namespace telehug

@@ -6,6 +6,7 @@
 #include <thread>
 
 #include "doubles/inbox.hpp"
+#include "doubles/temporary_folder.hpp"
 #include "doubles/unique_domain.hpp"
 #include "peer/session_id.hpp"
 
@@ -14,23 +15,27 @@ namespace {
 
 using nlohmann::json;
 
-TEST(AStop, StopsWhateverItsReasonIs) {
+class AStop : public testing::Test {
+ protected:
+  TemporaryFolder folder_;
+  StopSwitch stop{folder_ / "stop.json"};
+};
+
+TEST_F(AStop, StopsWhateverItsReasonIs) {
   for (const json& request : {json{{"command", "stop"}}, json{{"reason", 5}}, json{{"reason", ""}}}) {
-    StopSwitch stop;
+    stop.resume();
     stop.stop(request);
     EXPECT_TRUE(stop.stopped());
     EXPECT_EQ(stop.reason(), "stopped on this side");
   }
 }
 
-TEST(AStop, CutsALongReasonBetweenTwoCharacters) {
-  StopSwitch stop;
+TEST_F(AStop, CutsALongReasonBetweenTwoCharacters) {
   stop.stop({{"reason", std::string(199, 'x') + "\u00e4 and more"}});
   EXPECT_EQ(stop.reason(), std::string(199, 'x'));
 }
 
-TEST(AStop, CannotBeLiftedWhileItIsHeld) {
-  StopSwitch stop;
+TEST_F(AStop, CannotBeLiftedWhileItIsHeld) {
   stop.hold("the button was pressed", "the button is pressed");
   EXPECT_TRUE(stop.stopped());
   EXPECT_EQ(stop.reason(), "the button was pressed");
@@ -40,8 +45,7 @@ TEST(AStop, CannotBeLiftedWhileItIsHeld) {
   EXPECT_EQ(stop.resume(), (json{{"error", "the button is pressed"}})) << "another stop does not let go of it";
 }
 
-TEST(AStop, LastsAfterWhatHeldItHasLetGo) {
-  StopSwitch stop;
+TEST_F(AStop, LastsAfterWhatHeldItHasLetGo) {
   stop.hold("the button was pressed", "the button is pressed");
   stop.release();
   EXPECT_TRUE(stop.stopped());
@@ -67,6 +71,7 @@ class StopOverDds : public testing::Test {
     return false;
   }
 
+  TemporaryFolder folder_;
   SteadyClock clock_;
   UniqueDomain domain_;
   DdsParticipant active_{settings(Side::active)};
@@ -84,13 +89,13 @@ TEST_F(StopOverDds, ReachesThePeerWithAReasonThatTheWireRefuses) {
 }
 
 TEST_F(StopOverDds, OutlivesItsSenderAndIsLiftedByItsNextRun) {
-  StopSwitch first_run;
+  StopSwitch first_run(folder_ / "stop.json");
   first_run.stop({{"reason", "enough"}});
   {
     PeerLink to_passive(active_, Side::active, new_session_id(), 250ms, clock_);
     ASSERT_TRUE(eventually(first_run, to_passive, to_active_, true));
   }
-  StopSwitch second_run;
+  StopSwitch second_run(folder_ / "stop.json");  // on a full disk: nothing was kept
   PeerLink to_passive(active_, Side::active, new_session_id(), 250ms, clock_);
   EXPECT_FALSE(second_run.stopped());
   EXPECT_TRUE(to_active_.stopped_by_peer());

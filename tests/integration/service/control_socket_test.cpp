@@ -2,11 +2,14 @@
 #include "service/control_socket.hpp"
 
 #include <gmock/gmock.h>
+#include <grp.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <csignal>
+#include <cstdio>
+#include <cstdlib>
 
 #include "doubles/temporary_folder.hpp"
 #include "integration/service/raw_connection.hpp"
@@ -14,6 +17,7 @@
 namespace telehug {
 namespace {
 
+using testing::AllOf;
 using testing::HasSubstr;
 
 class ControlSocketTest : public testing::Test {
@@ -82,8 +86,27 @@ TEST_F(ControlSocketTest, LeavesAFileAloneThatIsNoSocket) {
 }
 
 TEST_F(ControlSocketTest, TellsOfAGroupThatDoesNotExistAndLeavesNothing) {
-  EXPECT_THAT(failure("no-such-group-here"), HasSubstr("there is no group \"no-such-group-here\""));
+  EXPECT_THAT(failure("no-such-group-here"),
+              AllOf(HasSubstr("control.group = \"no-such-group-here\": there is no such group on this PC"),
+                    HasSubstr("`sudo usermod -aG telehug NAME`")));
   EXPECT_FALSE(std::filesystem::exists(path_));
+  EXPECT_THROW(ControlSocket(path_, "no-such-group-here"), GroupUnusable);
+}
+
+TEST_F(ControlSocketTest, TellsOfAGroupThatItMayNotBeGivenToAndLeavesNothing) {
+  if (geteuid() != 0) GTEST_SKIP() << "only root can become somebody who is in no group";
+  std::filesystem::create_directories(path_.parent_path());
+  for (const auto& folder : {folder_.path(), path_.parent_path()})
+    ASSERT_EQ(chown(folder.c_str(), 65534, 65534), 0);
+  EXPECT_EXIT(
+      {
+        const bool changed = setgroups(0, nullptr) == 0 && setgid(65534) == 0 && setuid(65534) == 0;
+        std::fputs((changed ? failure("root") : "nothing was tried").c_str(), stderr);
+        std::exit(std::filesystem::exists(path_) ? 1 : 0);
+      },
+      testing::ExitedWithCode(0),
+      AllOf(HasSubstr("control.group = \"root\": this account may not give its socket to that group"),
+            HasSubstr("Leave it empty")));
 }
 
 TEST_F(ControlSocketTest, TellsOfAPathThatIsTooLong) {

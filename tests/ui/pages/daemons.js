@@ -50,6 +50,7 @@ export class Daemons {
   // `own.display`; else there are none.
   start(side, settings, more = [], own = undefined) {
     const all = [...this.dds, `control.socket=${this.socket(side)}`,
+                 `control.stop_file=${path.join(this.folder, `stop-${side}.json`)}`,
                  `peer.pairs_folder=${path.join(this.folder, `pairs-${side}`)}`, ...settings];
     const log = fs.openSync(path.join(this.folder, `${side}.log`), "a");
     const child = spawn(path.join(this.bin, `telehug-${side}`),

@@ -34,6 +34,17 @@ TEST(ConsentFile, IsAsConfiguredElseInTheStateFolder) {
   EXPECT_TRUE(consent_file({}).is_absolute());
 }
 
+TEST(StopFile, IsAsConfiguredElseTheSidesOwnInTheStateFolder) {
+  setenv("STATE_DIRECTORY", "/var/lib/telehug", 1);
+  EXPECT_EQ(stop_file({}, Side::active), "/var/lib/telehug/stop-active.json");
+  EXPECT_EQ(stop_file({}, Side::passive), "/var/lib/telehug/stop-passive.json");
+  ControlConfig config;
+  config.stop_file = "/a/mine.json";
+  EXPECT_EQ(stop_file(config, Side::passive), "/a/mine.json");
+  unsetenv("STATE_DIRECTORY");
+  EXPECT_TRUE(stop_file({}, Side::active).is_absolute());
+}
+
 TEST(JacketProfileFile, IsAsConfiguredElseTheInstalledOne) {
   JacketConfig config;
   EXPECT_TRUE(jacket_profile_file(config).is_absolute());

@@ -145,6 +145,31 @@ TEST_F(AMembership, OfABrokenPairAreRefusedAndNotTakenForNone) {
   EXPECT_THAT(found().error().message, HasSubstr("can't be read"));
 }
 
+TEST_F(AMembership, AreNoneWhileNothingButTheDatesIsWrong) {
+  const Pair pair = pair_with("Grandma");
+  const auto at = [&](WallTime time) { return memberships(config, Side::passive, time); };
+  for (const WallTime time : {pair.expires, now - std::chrono::hours(24 * 400)}) {
+    const Memberships none = at(time).value();
+    EXPECT_TRUE(none.members.empty());
+    EXPECT_THAT(why_none(none), testing::AllOf(HasSubstr("Grandma"), HasSubstr("To do: ")));
+  }
+  std::filesystem::remove(pair.files.governance);
+  EXPECT_FALSE(at(pair.expires)) << "that does not pass";
+}
+
+TEST_F(AMembership, OfABrokenPairBesideAnExpiredOneAreRefused) {
+  const Pair first = pair_with("Grandma");
+  const Pair second = pair_with("Dad");
+  const auto aside = folder / "aside";
+  for (const Pair& broken : {first, second}) {
+    std::filesystem::rename(broken.files.governance, aside);
+    const auto found = memberships(config, Side::passive, first.expires);
+    std::filesystem::rename(aside, broken.files.governance);
+    ASSERT_FALSE(found) << broken.name;
+    EXPECT_THAT(found.error().message, testing::AllOf(HasSubstr("Grandma"), HasSubstr("Dad")));
+  }
+}
+
 TEST_F(AMembership, LeaveOutABrokenPairIfAnotherCanBeUsed) {
   const Pair pair = pair_with("Grandma");
   pair_with("Dad");

@@ -69,6 +69,27 @@ TEST_F(NotifierTest, FeedsTheWatchdogAtHalfItsInterval) {
   EXPECT_EQ(told(), "WATCHDOG=1");
 }
 
+TEST_F(NotifierTest, FeedsNoWatchdogWhileHousekeepingHangs) {
+  setenv("WATCHDOG_USEC", "2000000", 1);
+  Notifier notifier;
+  FakeClock clock;
+  const auto is_fed_after = [&](Duration time) {
+    clock.advance(time);
+    notifier.alive(clock.now());
+    return told() == "WATCHDOG=1";
+  };
+  EXPECT_TRUE(is_fed_after(0s)) << "before the first round";
+  EXPECT_TRUE(is_fed_after(59s));
+  EXPECT_FALSE(is_fed_after(1s)) << "there never was one";
+  notifier.keeps_house(clock.now());
+  EXPECT_TRUE(is_fed_after(1s));
+  EXPECT_TRUE(is_fed_after(58s));
+  EXPECT_FALSE(is_fed_after(1s));
+  EXPECT_FALSE(is_fed_after(100s));
+  notifier.keeps_house(clock.now());
+  EXPECT_TRUE(is_fed_after(1s)) << "it goes on";
+}
+
 TEST_F(NotifierTest, LeavesTheWatchdogAloneWhenThereIsNone) {
   Notifier notifier;
   notifier.alive(FakeClock().now());
