@@ -9,7 +9,6 @@
 #include "cli/program.hpp"
 #include "config/load.hpp"
 #include "config/places.hpp"
-#include "daemon/wait_before_restart.hpp"
 #include "jacket/jacket_overrides.hpp"
 #include "jacket/load_jacket_profile.hpp"
 #include "link/make_link.hpp"
@@ -55,11 +54,7 @@ ExitCode run(const Options& options) {
   set_up_log(config->log.level);
   auto found = memberships(config->peer, Side::passive, wall_time());
   if (!found) return fail(ExitCode::config, found.error().message);
-  if (found->members.empty()) {
-    const ExitCode code = fail(ExitCode::pair_ended, why_none(*found));
-    wait_before_restart(signals);
-    return code;
-  }
+  if (found->members.empty()) return fail(ExitCode::pair_ended, why_none(*found));
   auto profile = load_jacket_profile(jacket_profile_file(config->jacket));
   if (profile && !config->jacket.overrides.empty())
     profile = with_overrides(*std::move(profile), config->jacket.overrides);

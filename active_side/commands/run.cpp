@@ -5,7 +5,6 @@
 #include "active_daemon.hpp"
 #include "commands/config_options.hpp"
 #include "config/places.hpp"
-#include "daemon/wait_before_restart.hpp"
 #include "service/control_socket.hpp"
 
 namespace telehug {
@@ -41,11 +40,7 @@ ExitCode run(const Options& options) {
   set_up_log(config->log.level);
   auto found = memberships(config->peer, Side::active, wall_time());
   if (!found) return fail(ExitCode::config, found.error());
-  if (found->members.empty()) {
-    const ExitCode code = fail(ExitCode::pair_ended, Error{why_none(*found)});
-    wait_before_restart(signals);
-    return code;
-  }
+  if (found->members.empty()) return fail(ExitCode::pair_ended, Error{why_none(*found)});
 
   const SteadyClock clock;
   CaptureSettings capture = capture_settings(*config);
