@@ -222,6 +222,8 @@ TEST_F(ThePanel, ShowsHowTheJacketIs) {
 TEST_F(ThePanel, HugsBackForItsHugButton) {
   ASSERT_TRUE(pair.start_all()) << pair.logs();
   const auto hugs = [&] { return pair.counter(Side::passive, "hugs_sent"); };
+  // The drive thread feels a touch before housekeeping knows of the peer.
+  ASSERT_TRUE(eventually([&] { return pair.status(Side::passive)["peer"].value("connected", false); })) << pair.logs();
   set("hug", "0");
   EXPECT_TRUE(eventually([&] { return hugs() == 1; })) << pair.logs();
   EXPECT_TRUE(eventually([&] {

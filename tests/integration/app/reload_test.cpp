@@ -158,7 +158,7 @@ TEST_F(AReloadDuringATouch, TurnsEverythingOffForQuietHoursAndLetsItBeFeltAgainA
 TEST_F(AReloadDuringATouch, LoosensNoLimitAndEndsNoStop) {
   start();
   ASSERT_EQ(pair.passive->end(), 0);
-  write(passive_file(), "[safety]\nmax_strength = 0.3\n");  // below what turns a motor
+  write(passive_file(), "[safety]\nmax_strength = 0.2\n");  // below what turns a motor
   pair.start_passive();
   const auto refused = [this] { return pair.counter(Side::passive, "safety_refused_by_limit"); };
   ASSERT_TRUE(eventually([&] { return refused() > 0; })) << pair.logs();
@@ -166,7 +166,7 @@ TEST_F(AReloadDuringATouch, LoosensNoLimitAndEndsNoStop) {
   write(passive_file(), "[safety]\nmax_strength = 1.0\n");
   ::kill(pair.passive->pid(), SIGHUP);
   ASSERT_TRUE(eventually([this] {
-    return pair.complains(Side::passive, "safety.max_strength = 1.0 needs a restart; 0.3 is still in use");
+    return pair.complains(Side::passive, "safety.max_strength = 1.0 needs a restart; 0.2 is still in use");
   })) << pair.logs();
   const auto before = refused();
   ASSERT_TRUE(eventually([&] { return refused() > before + 5; })) << pair.logs();
