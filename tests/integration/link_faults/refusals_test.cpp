@@ -179,7 +179,7 @@ TEST_F(Refusals, AnExpiredCertificateIsNotFeltNotEvenOfASideWhoseClockIsBehind) 
   const Validity over{wall_time() - 10 * day, wall_time() - 1 * day};
   own.keep(store(Side::active), Side::active, {.certificate = over, .permissions = over});
   const Outcome refused = link->run(Home::parent, link->pair.active_command());
-  EXPECT_EQ(refused.code, to_int(ExitCode::config)) << refused.text;
+  EXPECT_EQ(refused.code, to_int(ExitCode::pair_ended)) << refused.text;
   EXPECT_THAT(refused.text, HasSubstr("it has expired on"));
 
   start_wearers_side();
@@ -200,7 +200,7 @@ TEST_F(Refusals, ExpiredPermissionsAreNotFelt) {
   own.keep(store(Side::passive), Side::passive);
   own.keep(store(Side::active), Side::active, {.permissions = {wall_time() - 10 * day, wall_time() - 1 * day}});
   const Outcome refused = link->run(Home::parent, link->pair.active_command());
-  EXPECT_EQ(refused.code, to_int(ExitCode::config)) << refused.text;
+  EXPECT_EQ(refused.code, to_int(ExitCode::pair_ended)) << refused.text;
 
   start_wearers_side();
   ShiftedWallClock clock(link->pair.folder / "parents-clock");
