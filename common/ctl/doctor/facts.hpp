@@ -113,7 +113,6 @@ enum class BootloaderKind { not_asked, none, good, old };
 struct DoctorFacts {
   std::vector<SideFacts> sides;
   // active side
-  bool wants_webcam = false;
   std::string configured_camera;  // empty: the only one
   std::vector<DeviceNode> cameras;
   int picture_width_px = 0;  // as configured
@@ -122,37 +121,38 @@ struct DoctorFacts {
   CalibrationFacts calibration;
   std::vector<MonitorSize> monitors;      // that are connected and tell it
   double configured_screen_width_mm = 0;  // 0: it is not configured
+  std::string display;                    // of X11; empty: none
+  std::string wayland;                    // its display; empty: none
+  bool wants_webcam = false;
   bool wants_screen = false;
   bool pins_window = false;
-  std::string display;  // of X11; empty: none
   bool display_answers = false;
-  std::string wayland;  // its display; empty: none
   bool wayland_answers = false;
   std::string portal_trouble;  // why no screen can be shared through the desktop's portal; empty: it can
   // passive side
-  bool jacket_is_simulated = false;
   std::string serial_port;  // as configured; "auto"; empty: the jacket has none
   std::vector<DeviceNode> serial_ports;
-  BootloaderKind bootloader = BootloaderKind::not_asked;
   std::string bootloader_text;  // its version, or why there is none
-  bool wants_bluetooth = false;
+  BootloaderKind bootloader = BootloaderKind::not_asked;
   int bluetooth_adapters = 0;
+  bool jacket_is_simulated = false;
+  bool wants_bluetooth = false;
   bool bluetooth_blocked = false;  // rfkill(8)
   std::string bluez_trouble;       // "what; what to do"; empty: none
   // this PC
   std::string asked_by;  // the user
-  bool through_sudo = false;
   // Sides that are not the system's on a PC whose other side is: root, who may look at that one, does not stand for
   // whom these are.
   std::vector<Side> not_of_root;
-  std::string kernel;  // /proc/version
-  std::optional<bool> clock_synchronised;
+  std::string kernel;                      // /proc/version
   std::vector<int> udp_ports;              // in use on this PC
   std::vector<int> tcp_ports;              // that somebody listens on
   std::optional<nlohmann::json> firewall;  // nft's ruleset, if there is an nft and this user may read it
-  bool firewall_is_secret = false;         // it may not
-  bool legacy_firewall = false;            // there are rules of iptables that nft does not show
-  std::vector<nlohmann::json> daemons;     // their status
+  std::optional<bool> clock_synchronised;
+  bool through_sudo = false;
+  bool firewall_is_secret = false;      // it may not
+  bool legacy_firewall = false;         // there are rules of iptables that nft does not show
+  std::vector<nlohmann::json> daemons;  // their status
   std::vector<std::pair<std::string, std::string>> unreachable_daemons;  // what, and what to do
 };
 
