@@ -95,7 +95,7 @@ nlohmann::json StopSwitch::resume() {
   return {{"stopped", false}};
 }
 
-void StopSwitch::hold(std::string reason, std::string obstacle) {
+void StopSwitch::hold(const std::string& reason, std::string obstacle) {
   {
     const std::lock_guard lock(mutex_);
     set(true, reason);

@@ -34,7 +34,7 @@ class StopSwitch {
 
   // Stops, and lets nobody resume until release(), for what stands pressed or is broken. obstacle: a sentence that
   // tells who wants to resume why not, and what to do.
-  void hold(std::string reason, std::string obstacle);
+  void hold(const std::string& reason, std::string obstacle);
   // Still stopped.
   void release();
 

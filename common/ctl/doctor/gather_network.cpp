@@ -55,6 +55,10 @@ class Probe {
     address.sin_port = htons(static_cast<std::uint16_t>(port));
     ::inet_pton(AF_INET, text.substr(0, colon).c_str(), &address.sin_addr);
     fd_ = ::socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0);
+    if (fd_ < 0) {
+      settle(errno);
+      return;
+    }
     // Else Linux keeps to itself that a host is not there (ip(7)).
     const int on = 1;
     ::setsockopt(fd_, IPPROTO_IP, IP_RECVERR, &on, sizeof on);
@@ -109,6 +113,7 @@ std::vector<PeerProbe> probe_peers(const std::string& addresses, int domain) {
   const Timestamp deadline = clock.now() + longest_probe;
   for (;;) {
     std::vector<pollfd> waiting;
+    waiting.reserve(probes.size());
     for (const Probe& probe : probes)
       waiting.push_back({probe.fd(), POLLIN, 0});
     const auto left = std::chrono::ceil<std::chrono::milliseconds>(deadline - clock.now()).count();
@@ -118,6 +123,7 @@ std::vector<PeerProbe> probe_peers(const std::string& addresses, int domain) {
       if (waiting[i].fd >= 0 && waiting[i].revents != 0) probes[i].read_answer();
   }
   std::vector<PeerProbe> results;
+  results.reserve(probes.size());
   for (const Probe& probe : probes)
     results.push_back(probe.result());
   return results;

@@ -74,14 +74,14 @@ Account account_of(const std::vector<UnitFacts>& units, bool system) {
   const bool by_system = std::ranges::any_of(units, [](const UnitFacts& unit) {
     return !unit.user && unit.load == "loaded" && (unit.active != "inactive" || unit.enabled == "enabled");
   });
-  const Account self = own_account();
+  Account self = own_account();
   if ((!system && !by_system) || self.name == service_account) return self;
   return ::getpwnam(service_account) == nullptr ? self : Account{service_account, false, true};
 }
 
 fs::path installed_program(const std::string& name) {
   std::error_code ignored;
-  const fs::path beside = fs::read_symlink("/proc/self/exe", ignored).parent_path() / name;
+  fs::path beside = fs::read_symlink("/proc/self/exe", ignored).parent_path() / name;
   if (fs::exists(beside, ignored)) return beside;
   const char* path = std::getenv("PATH");
   std::istringstream folders(path == nullptr ? "" : path);
