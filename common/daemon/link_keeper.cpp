@@ -32,23 +32,23 @@ std::optional<AddressWatcher>& watch(std::optional<AddressWatcher>& watcher, boo
   return watcher;
 }
 
-// Several connections share one Fast DDS.
-void take_over_library_log() {
+// Before Fast DDS has anything to say. Several connections share one.
+DdsSettings with_library_log_taken_over(DdsSettings settings) {
   static std::once_flag done;
   std::call_once(done, tell_library_log,
                  [](const std::string& text) { log_about({.stage = "link"}, spdlog::level::warn, text); });
+  return settings;
 }
 
 }  // namespace
 
 LinkKeeper::LinkKeeper(DdsSettings settings, const Clock& clock)
-    : settings_(std::move(settings)),
+    : settings_(with_library_log_taken_over(std::move(settings))),
       clock_(clock),
       // Watched before the participant is made, so that no change falls between the two.
       supervisor_(!watch(addresses_, settings_.loopback_only) || !addresses_->addresses().empty()),
       participant_(std::in_place, settings_),
       told_({{"replaced", 0}, {"last_reason", ""}}) {
-  take_over_library_log();
   supervisor_.made(LinkCause::first, clock_.now());
 }
 

@@ -56,7 +56,8 @@ telehug_test(test_kept_stop KIND unit SUBJECT ops
 
 telehug_test(test_link_keeper KIND unit SUBJECT link
   SOURCES unit/daemon/link_keeper_test.cpp
-  DEPS telehug_daemon)
+  DEPS telehug_daemon
+  USES_FASTDDS)
 
 telehug_test(test_link_figures KIND unit SUBJECT link
   SOURCES unit/bench/link_figures_test.cpp bench/homes/link_figures.cpp

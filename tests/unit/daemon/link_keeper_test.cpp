@@ -3,7 +3,14 @@
 // With real participants, bound to loopback, and a clock that the test moves.
 #include "daemon/link_keeper.hpp"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <spdlog/sinks/ostream_sink.h>
+#include <spdlog/spdlog.h>
+#include <fastdds/dds/log/Log.hpp>
+
+#include <memory>
+#include <sstream>
 
 #include "doubles/fake_clock.hpp"
 #include "doubles/unique_domain.hpp"
@@ -30,6 +37,25 @@ class HeldUpLinkKeeper : public testing::Test {
   int disconnected = 0;
   int connected = 0;
 };
+
+TEST(LinkKeeperOfADaemon, TellsInItsLogWhatFastDdsWouldWriteToTheStandardError) {
+  using eprosima::fastdds::dds::Log;
+  const auto before = spdlog::default_logger();
+  std::ostringstream told;
+  spdlog::set_default_logger(
+      std::make_shared<spdlog::logger>("test", std::make_shared<spdlog::sinks::ostream_sink_mt>(told)));
+  testing::internal::CaptureStderr();
+  {
+    const UniqueDomain domain;
+    const FakeClock clock;
+    const LinkKeeper keeper{{.domain_id = domain.id(), .partition = domain.partition(), .loopback_only = true}, clock};
+    Log::QueueLog("a storm", {"file", 1, "here", "PART"}, Log::Kind::Error);
+    Log::Flush();
+  }
+  spdlog::set_default_logger(before);
+  EXPECT_THAT(told.str(), testing::HasSubstr("Fast DDS (PART, here): a storm"));
+  EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
+}
 
 TEST_F(HeldUpLinkKeeper, MakesTheParticipantAnewWithinASecondAndAHalfWhereThePeerIsNotHeardAfterwards) {
   serve(4, true);
