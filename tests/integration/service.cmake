@@ -7,7 +7,7 @@ set_source_files_properties(integration/service/control_server_test.cpp integrat
   TARGET_DIRECTORY test_control_server PROPERTIES COMPILE_OPTIONS -Wno-null-dereference)
 
 telehug_test(test_telehug_command KIND integration SUBJECT ops
-  SOURCES integration/ctl/telehug_command_test.cpp
+  SOURCES integration/ctl/open_command_test.cpp integration/ctl/telehug_command_test.cpp
   DEPS telehug_service)
 add_dependencies(test_telehug_command telehug)
 

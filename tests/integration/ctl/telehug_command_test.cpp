@@ -4,7 +4,6 @@
 #include <gmock/gmock.h>
 #include <sys/socket.h>
 #include <sys/un.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
 #include <atomic>
@@ -12,9 +11,7 @@
 #include <sstream>
 #include <thread>
 
-#include "doubles/temporary_folder.hpp"
-#include "service/control_server.hpp"
-#include "service/control_socket.hpp"
+#include "integration/ctl/telehug_command.hpp"
 #include "service/exit_code.hpp"
 
 namespace telehug {
@@ -23,65 +20,6 @@ namespace {
 using testing::HasSubstr;
 using testing::IsEmpty;
 using Json = nlohmann::json;
-
-struct Outcome {
-  int code = -1;
-  std::string out;
-  std::string errors;
-};
-
-class TelehugCommand : public testing::Test {
- protected:
-  TelehugCommand() { std::filesystem::create_directories(runtime_ / "telehug"); }
-
-  // With $XDG_RUNTIME_DIR in the test's own folder; `prefix` runs it with fewer rights or without a network.
-  Outcome run(const std::string& arguments, const std::string& prefix = "") {
-    const auto out = folder_.path() / "out.txt";
-    const auto errors = folder_.path() / "errors.txt";
-    const std::string line = prefix + " env XDG_RUNTIME_DIR=" + runtime_.string() + " " TELEHUG_BIN "/telehug " +
-                             arguments + " >" + out.string() + " 2>" + errors.string();
-    const int status = std::system(line.c_str());
-    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, content(out), content(errors)};
-  }
-
-  static std::string content(const std::filesystem::path& file) {
-    std::ostringstream text;
-    text << std::ifstream(file).rdbuf();
-    return text.str();
-  }
-
-  std::unique_ptr<ControlServer> daemon(Side side, Json status) {
-    auto server = std::make_unique<ControlServer>(
-        ControlServerOptions{.socket = runtime_ / "telehug" / (side_name(side) + ".sock"), .group = {}});
-    server->on("status", [status](const Json&) { return status; });
-    server->on("stop", [this, side](const Json& request) -> Json {
-      reason_ = request.value("reason", "");
-      return {{"side", side_name(side)}};
-    });
-    server->on("hug", [this, side](const Json& request) -> Json {
-      hug_ = request;
-      return {{"side", side_name(side)}};
-    });
-    for (const char* order : {"pause", "unpause", "mute", "unmute", "strength", "quiet"}) {
-      server->on(order, [this, side](const Json& request) -> Json {
-        order_ = request;
-        return {{"side", side_name(side)}};
-      });
-    }
-    server->on("open", [side](const Json&) -> Json {
-      return {{"url", "http://127.0.0.1:4000/enter?link=" + side_name(side)}};
-    });
-    server->on("resume", [](const Json&) -> Json { return {{"error", "the other side has stopped"}}; });
-    server->start();
-    return server;
-  }
-
-  TemporaryFolder folder_;
-  std::filesystem::path runtime_ = folder_.path() / "run";
-  std::string reason_;
-  Json hug_;
-  Json order_;
-};
 
 TEST_F(TelehugCommand, PrintsItsVersion) {
   const Outcome outcome = run("version");
@@ -263,67 +201,6 @@ TEST_F(TelehugCommand, TellsTheWearersDaemonAloneWhatTheyWant) {
   EXPECT_EQ(order_, Json({{"command", "quiet"}, {"hours", ""}}));
   EXPECT_EQ(run("unmute --all").code, to_int(ExitCode::ok));
   EXPECT_EQ(order_.value("all", false), true);
-}
-
-TEST_F(TelehugCommand, OpensThePagesOfTheDaemonThatItIsToldOrOfAll) {
-  const auto active = daemon(Side::active, Json::object());
-  const auto passive = daemon(Side::passive, Json::object());
-  EXPECT_EQ(run("open passive --print").out, "http://127.0.0.1:4000/enter?link=passive\n");
-  EXPECT_EQ(run("open --print").out,
-            "http://127.0.0.1:4000/enter?link=active\nhttp://127.0.0.1:4000/enter?link=passive\n");
-  EXPECT_EQ(run("open nobody").code, to_int(ExitCode::usage));
-}
-
-TEST_F(TelehugCommand, GivesALinkToTheBrowserOrToThePersonIfThereIsNone) {
-  const auto passive = daemon(Side::passive, Json::object());
-  const std::string browser = folder_.write("xdg-open", "#!/bin/sh\necho \"$1\" > \"$0.opened\"\n");
-  std::filesystem::permissions(browser, std::filesystem::perms::owner_all);
-  const std::string path = "env PATH=" + folder_.path().string() + ":/usr/bin:/bin";
-  EXPECT_EQ(run("open passive", path).code, 0);
-  EXPECT_EQ(content(browser + ".opened"), "http://127.0.0.1:4000/enter?link=passive\n");
-  const Outcome failed = run("open passive", "env PATH=/nowhere:/usr/bin");
-  EXPECT_EQ(failed.code, to_int(ExitCode::internal));
-  EXPECT_THAT(failed.errors, HasSubstr("open this link within a minute: http://127.0.0.1:4000/enter?link=passive"));
-}
-
-TEST_F(TelehugCommand, StartsTheParentsSideToOpenItsPageIfToldSoAndNothingRuns) {
-  const std::string systemctl = folder_.write(
-      "systemctl",
-      "#!/bin/sh\necho \"$*\" >> \"$0.called\"\ncd \"$XDG_RUNTIME_DIR/telehug\" && mv ready active.sock\n");
-  std::filesystem::permissions(systemctl, std::filesystem::perms::owner_all);
-  const std::string path = "env PATH=" + folder_.path().string() + ":/usr/bin:/bin";
-  ControlServer server({.socket = runtime_ / "telehug/ready", .group = {}});
-  server.on("open", [](const Json&) { return Json{{"url", "http://127.0.0.1:4000/enter?link=started"}}; });
-  server.start();
-
-  EXPECT_EQ(run("open --print", path).code, to_int(ExitCode::not_running));
-  EXPECT_FALSE(std::filesystem::exists(systemctl + ".called"));
-
-  EXPECT_EQ(run("open --start --print", path).out, "http://127.0.0.1:4000/enter?link=started\n");
-  EXPECT_EQ(content(systemctl + ".called"), "--user start telehug-active.service\n");
-  EXPECT_EQ(run("open --start --print", path).out, "http://127.0.0.1:4000/enter?link=started\n");
-  EXPECT_EQ(content(systemctl + ".called"), "--user start telehug-active.service\n") << "it ran already";
-}
-
-TEST_F(TelehugCommand, TellsWhyTheParentsSideCantBeStarted) {
-  const std::string systemctl =
-      folder_.write("systemctl", "#!/bin/sh\necho Unit telehug-active.service not found. >&2\nexit 5\n");
-  std::filesystem::permissions(systemctl, std::filesystem::perms::owner_all);
-  const Outcome outcome = run("open --start", "env PATH=" + folder_.path().string() + ":/usr/bin:/bin");
-  EXPECT_EQ(outcome.code, to_int(ExitCode::not_running));
-  EXPECT_THAT(outcome.errors, HasSubstr("telehug-active can't be started: Unit telehug-active.service not found."));
-}
-
-TEST_F(TelehugCommand, OpensNothingButAPageOfThisPc) {
-  for (const Json& url : {Json("file:///etc/passwd"), Json("--version"), Json("http://evil.example/"),
-                          Json("http://127.0.0.1:1/ --x"), Json(5), Json()}) {
-    auto server =
-        std::make_unique<ControlServer>(ControlServerOptions{.socket = runtime_ / "telehug/passive.sock", .group = {}});
-    server->on("open", [url](const Json&) { return Json{{"url", url}}; });
-    server->start();
-    EXPECT_EQ(run("open passive --print").code, to_int(ExitCode::bad_answer)) << url;
-    EXPECT_THAT(run("open passive --print").out, IsEmpty()) << url;
-  }
 }
 
 TEST_F(TelehugCommand, TellsWhyADaemonRefuses) {

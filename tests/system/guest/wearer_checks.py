@@ -218,6 +218,15 @@ def upgraded():
     return f"{told}, settings and pair kept, {armed_and_felt(BY_ID)}"
 
 
+def stays_stopped():
+    """What an upgrade runs at its end."""
+    run("systemctl", "stop", UNIT)
+    run("sh", "/var/lib/dpkg/info/telehug-passive.postinst", "configure", packages.version_of("telehug-passive"))
+    if property_of_unit("ActiveState") != "inactive":
+        raise Failed("the unit that somebody had stopped runs again")
+    run("systemctl", "start", UNIT)
+
+
 def files_of_telehug():
     found = []
     for top in ("/etc", "/usr", "/var/lib/telehug", "/lib", "/run"):
@@ -260,7 +269,10 @@ GROUPS = {
     },
     "usb": {"back to the jacket at the USB port: armed and felt": back_to_usb},
     "rebooted": {"after a reboot the unit is up, the jacket felt": rebooted},
-    "upgraded": {"apt upgrades it: settings and pair kept, restarted": upgraded},
+    "upgraded": {
+        "apt upgrades it: settings and pair kept, restarted": upgraded,
+        "an upgrade leaves it stopped if somebody has stopped it": stays_stopped,
+    },
     "purged": {"purged: nothing left but what people made": purged},
 }
 
